@@ -1,0 +1,17 @@
+# Flags that every target of this project takes through softgrain_options.
+add_library(softgrain_options INTERFACE)
+# No fused multiply-add: the same source gives the same bits on every path through it.
+target_compile_options(softgrain_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                                                   -ffp-contract=off -fno-math-errno)
+if(SOFTGRAIN_WERROR)
+  target_compile_options(softgrain_options INTERFACE -Werror)
+endif()
+if(SOFTGRAIN_NATIVE)
+  target_compile_options(softgrain_options INTERFACE -march=native)
+endif()
+if(SOFTGRAIN_SANITIZE)
+  target_compile_options(softgrain_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                     -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
+  target_link_options(softgrain_options INTERFACE -fsanitize=address,undefined)
+endif()
+target_include_directories(softgrain_options INTERFACE ${PROJECT_SOURCE_DIR})

@@ -1,0 +1,92 @@
+#pragma once
+// The common tongue: what every method tells about its grains. Observables and writers read only this.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/box.hpp"
+#include "common/vec.hpp"
+
+namespace softgrain {
+
+/// What a reader is going to look at; the rest need not be computed.
+enum class Need : std::uint32_t {
+    base = 0,        ///< centroid, velocity, mass, box, wall_force, energy
+    area = 1U << 0,  ///< area, covered_area
+    contacts = 1U << 1,
+    stress = 1U << 2,
+    outlines = 1U << 3,
+    fields = 1U << 4,
+    all = (1U << 5) - 1,
+};
+constexpr Need operator|(Need a, Need b) {
+    return static_cast<Need>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr bool wants(Need all, Need one) {
+    return (static_cast<std::uint32_t>(all) & static_cast<std::uint32_t>(one)) != 0;
+}
+
+/// A pair of touching grains, or a grain touching a wall.
+struct GrainContact {
+    int i;          ///< grain
+    int j;          ///< second grain (j > i), or -1 - wall
+    Vec2 point;     ///< representative point [m]
+    Vec2 normal;    ///< unit, out of i
+    Vec2 force;     ///< on i [N]
+    double length;  ///< contact length [m]; 0 if the method has point contacts
+
+    bool with_wall() const { return j < 0; }
+    int wall() const { return -1 - j; }
+    double normal_force() const { return -force.dot(normal); }  ///< compression positive [N]
+};
+
+/// Running energies since the start of the run [J per unit thickness]. Zero for mechanisms a method does not
+/// have.
+struct EnergyLedger {
+    double kinetic = 0.0;
+    double elastic = 0.0;        ///< stored, recoverable
+    double external_work = 0.0;  ///< done by the walls on the grains
+    double damping = 0.0;        ///< dissipated by viscous terms
+    double friction = 0.0;       ///< dissipated by sliding
+    double impact = 0.0;         ///< dissipated by inelastic shocks
+
+    double dissipated() const { return damping + friction + impact; }
+};
+
+/// A method's own quantity per grain, written as it is.
+struct Field {
+    std::string_view name, unit;
+    int components;                  ///< 1 (scalar) or 4 (tensor xx, xy, yx, yy)
+    std::span<const double> values;  ///< [n * components]
+};
+
+/// Non-owning view of a solver's state; valid until the solver advances. Stress is compression positive.
+struct GrainView {
+    double time = 0.0;
+    Box box;
+    std::span<const Vec2> centroid;          ///< [n] [m]
+    std::span<const Vec2> velocity;          ///< [n] [m/s]
+    std::span<const double> mass;            ///< [n] [kg]
+    std::span<const double> reference_area;  ///< [n] undeformed [m^2]
+    std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
+                                   Vec2::Zero()};  ///< by grains on walls [N]
+    EnergyLedger energy;
+
+    std::span<const double> area;  ///< [n] current area of each grain [m^2]
+    double covered_area = 0.0;     ///< area covered by grains, overlaps counted once [m^2]
+
+    std::span<const GrainContact> contacts;  ///< sorted by (i, j), walls (j < 0) first
+
+    std::span<const Mat2> stress;  ///< [n] mean Cauchy stress of each grain [N/m]
+
+    std::span<const int> outline_offset;  ///< [n + 1] into outline_point
+    std::span<const Vec2> outline_point;  ///< closed polygons, counter-clockwise [m]
+
+    std::vector<Field> fields;
+
+    std::size_t size() const { return centroid.size(); }
+};
+
+}  // namespace softgrain

@@ -1,0 +1,59 @@
+#pragma once
+// The one seam between the time loop and a method.
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/box.hpp"
+#include "common/checkpoint.hpp"
+#include "common/grain_view.hpp"
+#include "common/packing/packing.hpp"
+#include "common/scenario.hpp"
+
+namespace softgrain {
+
+/// A method's state and equations. The same bits for any number of threads.
+class Solver {
+  public:
+    virtual ~Solver() = default;
+
+    /// Largest time step to use from the current state [s], safety factor included.
+    virtual double stable_time_step() const = 0;
+
+    /// One step of `dt` while the walls move as told. Throws DivergedError.
+    virtual void advance(const WallMotion& walls, double dt) = 0;
+
+    /// The state after the last step. Fills at least what `need` asks for.
+    virtual GrainView view(Need need) = 0;
+
+    /// By grains on walls, mean over the last step if the method has impulses [N]. Cheap: asked at every
+    /// step.
+    virtual const std::array<Vec2, 4>& wall_force() const = 0;
+
+    /// Stress that sets the scale of this grain material [N/m]: E, or F0/<a0> for an aggregate.
+    virtual double stress_scale() const = 0;
+
+    /// Why the method can no longer be trusted in its present state, if so; the loop then ends the run in
+    /// good order.
+    virtual std::optional<std::string> outside_validity() const { return std::nullopt; }
+
+    /// Throws DivergedError if any part of the state is not finite.
+    virtual void check_finite() const = 0;
+
+    virtual void save(Checkpoint& to) const = 0;
+    /// Restores a state saved by a solver made from the same scenario and packing.
+    virtual void load(const Checkpoint& from) = 0;
+};
+
+/// A row of the table of methods.
+struct Method {
+    std::string_view name;
+    std::string_view title;              ///< one line for `softgrain list`
+    std::span<const KeySpec> (*keys)();  ///< its scenario table
+    std::unique_ptr<Solver> (*make)(const Scenario&, const Packing&);
+    std::string_view not_given;  ///< history columns it leaves as nan, comma separated
+};
+
+}  // namespace softgrain
