@@ -1,0 +1,18 @@
+#pragma once
+// Who touches whom: coordination numbers with and without rattlers.
+#include "common/grain_view.hpp"
+
+namespace softgrain {
+
+/// PHYSICS conventions: Z = 2 N_gg / N; a rattler has fewer than 2 contacts (walls count), removed
+/// repeatedly.
+struct Coordination {
+    double all;               ///< 2 N_gg / N over all grains
+    double without_rattlers;  ///< the same over grains that carry load; 0 if there are none
+    double with_walls;        ///< (2 N_gg + N_gw) / N over all grains
+    int rattlers;
+};
+
+Coordination coordination(const GrainView& view);
+
+}  // namespace softgrain

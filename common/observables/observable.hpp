@@ -1,0 +1,35 @@
+#pragma once
+// Columns of the history: one number per sample, the same definition for every method.
+#include <span>
+#include <string_view>
+
+#include "common/grain_view.hpp"
+
+namespace softgrain {
+
+/// All that an observable may look at in one sample.
+struct Frame {
+    const GrainView& view;
+    Box initial_box;
+    double axial_strain;             ///< 1 - L/L0 along the loading axis
+    double strain_rate;              ///< [1/s]
+    double density;                  ///< of the grain material [kg/m^2]
+    double initial_energy;           ///< kinetic + elastic at the start [J]
+    std::array<Vec2, 4> wall_force;  ///< mean since the last check of the loop [N]
+    long long step;
+};
+
+struct Observable {
+    std::string_view name;
+    std::string_view unit;
+    Need need;
+    double (*measure)(const Frame&);
+};
+
+/// Every column of `history.csv`, in its order.
+std::span<const Observable> observables();
+
+/// Index of a column; throws std::out_of_range.
+std::size_t observable_index(std::string_view name);
+
+}  // namespace softgrain

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "common/observables/coordination.hpp"
+#include "common/observables/observable.hpp"
+#include "common/observables/stress.hpp"
+
+namespace softgrain {
+namespace {
+
+double sum(std::span<const double> values) {
+    double total = 0.0;
+    for (double v : values) total += v;
+    return total;
+}
+
+double mean_stress(const Frame& f) {
+    return 0.5 * wall_stress(f.wall_force, f.view.box).sum();
+}
+
+/// I = strain rate * d * sqrt(rho / p), d the diameter of the disc of mean area.
+double inertial_number(const Frame& f) {
+    const double p = mean_stress(f);
+    if (f.strain_rate == 0.0) return 0.0;
+    if (!(p > 0.0)) return std::nan("");
+    const double mean_area = sum(f.view.reference_area) / static_cast<double>(f.view.size());
+    return f.strain_rate * 2.0 * std::sqrt(mean_area / M_PI) * std::sqrt(f.density / p);
+}
+
+double energy_residual(const Frame& f) {
+    const EnergyLedger& e = f.view.energy;
+    return f.initial_energy + e.external_work - e.kinetic - e.elastic - e.dissipated();
+}
+
+using N = Need;
+constexpr std::array table{
+    Observable{"time", "s", N::base, [](const Frame& f) { return f.view.time; }},
+    Observable{"step", "", N::base, [](const Frame& f) { return static_cast<double>(f.step); }},
+    Observable{"axial_strain", "", N::base, [](const Frame& f) { return f.axial_strain; }},
+    Observable{"box_width", "m", N::base, [](const Frame& f) { return f.view.box.width(); }},
+    Observable{"box_height", "m", N::base, [](const Frame& f) { return f.view.box.height(); }},
+    Observable{"packing_fraction", "", N::area,
+               [](const Frame& f) { return f.view.covered_area / f.view.box.area(); }},
+    Observable{"packing_fraction_undeformed", "", N::base,
+               [](const Frame& f) { return sum(f.view.reference_area) / f.view.box.area(); }},
+    Observable{"coordination_number", "", N::contacts,
+               [](const Frame& f) { return coordination(f.view).all; }},
+    Observable{"coordination_number_no_rattlers", "", N::contacts,
+               [](const Frame& f) { return coordination(f.view).without_rattlers; }},
+    Observable{"coordination_number_with_walls", "", N::contacts,
+               [](const Frame& f) { return coordination(f.view).with_walls; }},
+    Observable{"stress_xx", "N/m", N::base,
+               [](const Frame& f) { return wall_stress(f.wall_force, f.view.box).x(); }},
+    Observable{"stress_yy", "N/m", N::base,
+               [](const Frame& f) { return wall_stress(f.wall_force, f.view.box).y(); }},
+    Observable{"mean_stress", "N/m", N::base, mean_stress},
+    Observable{"deviatoric_stress", "N/m", N::base,
+               [](const Frame& f) {
+                   const Vec2 s = wall_stress(f.wall_force, f.view.box);
+                   return 0.5 * (s.x() - s.y());
+               }},
+    Observable{"love_weber_xx", "N/m", N::contacts,
+               [](const Frame& f) { return love_weber_stress(f.view)(0, 0); }},
+    Observable{"love_weber_yy", "N/m", N::contacts,
+               [](const Frame& f) { return love_weber_stress(f.view)(1, 1); }},
+    Observable{"love_weber_xy", "N/m", N::contacts,
+               [](const Frame& f) {
+                   const Mat2 s = love_weber_stress(f.view);
+                   return 0.5 * (s(0, 1) + s(1, 0));
+               }},
+    Observable{"inertial_number", "", N::base, inertial_number},
+    Observable{"unbalanced_force", "", N::contacts, [](const Frame& f) { return unbalanced_force(f.view); }},
+    Observable{"kinetic_energy", "J", N::base, [](const Frame& f) { return f.view.energy.kinetic; }},
+    Observable{"elastic_energy", "J", N::base, [](const Frame& f) { return f.view.energy.elastic; }},
+    Observable{"external_work", "J", N::base, [](const Frame& f) { return f.view.energy.external_work; }},
+    Observable{"dissipated_energy", "J", N::base, [](const Frame& f) { return f.view.energy.dissipated(); }},
+    Observable{"energy_residual", "J", N::base, energy_residual},
+};
+
+}  // namespace
+
+std::span<const Observable> observables() {
+    return table;
+}
+
+std::size_t observable_index(std::string_view name) {
+    const auto* it =
+        std::find_if(table.begin(), table.end(), [&](const Observable& o) { return o.name == name; });
+    if (it == table.end()) throw std::out_of_range("no history column named " + std::string(name));
+    return static_cast<std::size_t>(it - table.begin());
+}
+
+}  // namespace softgrain

@@ -1,0 +1,19 @@
+#include "rigid_dem/method.hpp"
+
+#include "rigid_dem/solver.hpp"
+
+namespace softgrain::rigid_dem {
+
+const Method& method() {
+    static const Method row{
+        .name = "rigid_dem",
+        .title = "rigid discs, linear contacts with damping and Coulomb friction (Cundall and Strack 1979)",
+        .keys = keys,
+        .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
+            return std::make_unique<RigidDem>(scenario, packing);
+        },
+        .not_given = ""};
+    return row;
+}
+
+}  // namespace softgrain::rigid_dem

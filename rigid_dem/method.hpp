@@ -1,0 +1,9 @@
+#pragma once
+// Rigid DEM's row in the table of methods.
+#include "common/solver.hpp"
+
+namespace softgrain::rigid_dem {
+
+const Method& method();
+
+}  // namespace softgrain::rigid_dem

@@ -1,0 +1,40 @@
+#include "rigid_dem/parameters.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace softgrain::rigid_dem {
+
+std::span<const KeySpec> keys() {
+    using enum KeyType;
+    static const std::vector<KeySpec> table{
+        {"stiffness", number, 1.0, "E", "stiffness of one grain against a rigid wall; a pair has half of it",
+         positive},
+        {"shear_ratio", number, 0.5, "", "tangential over normal contact stiffness", positive},
+        {"restitution", number, 0.5, "", "coefficient of restitution of a pair, sets the contact damping",
+         Range{0.01, 1.0}},
+        {"safety", number, 0.5, "", "share of the stability limit used as time step", Range{0.0, 1.0, true}},
+        {"skin", number, 0.2, "smallest radius", "margin of the neighbour list", positive},
+        {"overlap_limit", number, 0.1, "smaller radius",
+         "largest overlap for which discs count as rigid; the run ends there", positive},
+    };
+    return table;
+}
+
+Parameters parameters_of(const Scenario& scenario) {
+    const Settings& table = scenario.method_settings.at("rigid_dem");
+    const double log_e = std::log(table.number("restitution"));
+    const double k = table.number("stiffness") * scenario.material.youngs_modulus;
+    return {.pair_stiffness = 0.5 * k,
+            .wall_stiffness = k,
+            .shear_ratio = table.number("shear_ratio"),
+            .friction = scenario.material.friction,
+            .damping_ratio = -log_e / std::hypot(std::numbers::pi, log_e),
+            .density = scenario.material.density,
+            .young = scenario.material.youngs_modulus,
+            .safety = table.number("safety"),
+            .skin = table.number("skin"),
+            .overlap_limit = table.number("overlap_limit")};
+}
+
+}  // namespace softgrain::rigid_dem
