@@ -4,6 +4,25 @@
 #include <numbers>
 
 namespace softgrain::rigid_dem {
+namespace {
+
+/// Restitution of a spring and dashpot that never pull: the contact ends when the force is zero
+/// (Schwager and Poeschel 2007, Granular Matter 9, 465).
+double restitution(double zeta) {
+    const double damped = std::sqrt(1.0 - zeta * zeta);
+    const double duration =
+        (std::numbers::pi - std::atan2(2.0 * zeta * damped, 1.0 - 2.0 * zeta * zeta)) / damped;
+    return std::exp(-zeta * duration);
+}
+
+double damping_ratio(double wanted) {
+    double low = 0.0;
+    double high = 1.0 - 1e-9;
+    while (high - low > 1e-12) (restitution(0.5 * (low + high)) > wanted ? low : high) = 0.5 * (low + high);
+    return low;
+}
+
+}  // namespace
 
 std::span<const KeySpec> keys() {
     using enum KeyType;
@@ -12,7 +31,7 @@ std::span<const KeySpec> keys() {
          positive},
         {"shear_ratio", number, 0.5, "", "tangential over normal contact stiffness", positive},
         {"restitution", number, 0.5, "", "coefficient of restitution of a pair, sets the contact damping",
-         Range{0.01, 1.0}},
+         Range{0.15, 1.0}},
         {"safety", number, 0.5, "", "share of the stability limit used as time step", Range{0.0, 1.0, true}},
         {"skin", number, 0.2, "smallest radius", "margin of the neighbour list", positive},
         {"overlap_limit", number, 0.1, "smaller radius",
@@ -23,13 +42,12 @@ std::span<const KeySpec> keys() {
 
 Parameters parameters_of(const Scenario& scenario) {
     const Settings& table = scenario.method_settings.at("rigid_dem");
-    const double log_e = std::log(table.number("restitution"));
     const double k = table.number("stiffness") * scenario.material.youngs_modulus;
     return {.pair_stiffness = 0.5 * k,
             .wall_stiffness = k,
             .shear_ratio = table.number("shear_ratio"),
             .friction = scenario.material.friction,
-            .damping_ratio = -log_e / std::hypot(std::numbers::pi, log_e),
+            .damping_ratio = damping_ratio(table.number("restitution")),
             .density = scenario.material.density,
             .young = scenario.material.youngs_modulus,
             .safety = table.number("safety"),

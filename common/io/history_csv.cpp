@@ -53,11 +53,13 @@ History read_history(const std::filesystem::path& path) {
     std::ifstream file(path);
     if (!file) throw InputError(fmt::format("{}: cannot read it", path.string()));
     std::string line;
-    std::getline(file, line);
+    int number = 1;
+    for (; std::getline(file, line) && line.starts_with('#');) ++number;
     const std::vector<std::string> names = split(line);
     History history;
     for (const std::string& name : names) history.columns[name] = {};
-    for (int number = 2; std::getline(file, line); ++number) {
+    while (std::getline(file, line)) {
+        ++number;
         const std::vector<std::string> parts = split(line);
         if (parts.size() != names.size())
             throw InputError(fmt::format("{}:{}: {} values, expected {}", path.string(), number, parts.size(),

@@ -32,7 +32,7 @@ struct History {
     const std::vector<double>& column(std::string_view name) const;
 };
 
-/// Throws InputError naming file and line.
+/// Comment lines before the header start with '#'. Throws InputError naming file and line.
 History read_history(const std::filesystem::path& path);
 
 }  // namespace softgrain

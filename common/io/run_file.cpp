@@ -94,6 +94,7 @@ void write_run_file(const std::filesystem::path& path, const RunFile& content) {
             write_text(file, "version", content.version);
             write_text(file, "method", content.method);
             write_text(file, "scenario", content.scenario);
+            write_array(file, "time_spent", std::vector<double>{content.wall_time, content.cpu_time});
             write_history(file.createGroup("history"), content.state.history);
             const H5::Group checkpoint = file.createGroup("checkpoint");
             Checkpoint loop;
@@ -115,6 +116,9 @@ RunFile read_run_file(const std::filesystem::path& path) {
         content.version = read_text(file, "version");
         content.method = read_text(file, "method");
         content.scenario = read_text(file, "scenario");
+        const auto spent = read_array<double>(file.openDataSet("time_spent"));
+        content.wall_time = spent.at(0);
+        content.cpu_time = spent.at(1);
         const H5::Group checkpoint = file.openGroup("checkpoint");
         content.state.load(read_checkpoint(checkpoint.openGroup("loop")));
         content.solver = read_checkpoint(checkpoint.openGroup("solver"));

@@ -15,6 +15,8 @@ struct RunFile {
     std::string scenario;  ///< the resolved scenario's text
     RunState state;
     Checkpoint solver;
+    double wall_time = 0.0;  ///< spent so far [s]
+    double cpu_time = 0.0;   ///< [s]
 };
 
 /// Written whole, atomically; every data set carries a Fletcher-32 checksum. Throws OutputError.

@@ -1,0 +1,139 @@
+#include "app/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "app/comparison_table.hpp"
+#include "app/methods.hpp"
+#include "app/process.hpp"
+#include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/scenario_file.hpp"
+#include "common/packing/make_packing.hpp"
+#include "common/packing/packing_csv.hpp"
+#include "viz/client.hpp"
+
+namespace softgrain {
+namespace {
+
+constexpr int table_columns = 7;
+
+/// A method whose run is over already is not run again by --resume.
+std::optional<RunReport> finished_run(const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "run.json")) return std::nullopt;
+    const RunReport report = read_report(folder);
+    return report.exit_code == 0 ? std::optional(report) : std::nullopt;
+}
+
+MethodResult run_one(const CompareRequest& request, const Packing& packing, const Method& method) {
+    const auto folder = request.folder / method.name;
+    MethodResult result;
+    if (const auto done = request.resume ? finished_run(folder) : std::nullopt) {
+        result.report = *done;
+    } else {
+        result.report = run_into_folder({.scenario = request.scenario,
+                                         .packing = packing,
+                                         .method = method,
+                                         .folder = folder,
+                                         .threads = request.threads,
+                                         .resume = request.resume,
+                                         .force = request.force,
+                                         .quiet = request.quiet});
+    }
+    result.history = read_history(folder / "history.csv");
+    return result;
+}
+
+PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResult>& results,
+                    const std::optional<History>& reference, std::string_view column,
+                    const std::string& label, bool logarithmic) {
+    PlotSpec plot;
+    plot.title = request.scenario.title;
+    plot.x.label = "packing fraction";
+    plot.y.label = label;
+    plot.y.logarithmic = logarithmic;
+    const auto add = [&](const std::string& name, const History& history) {
+        PlotSeries series;
+        series.label = name;
+        series.x = history.column("packing_fraction");
+        series.y = history.column(column);
+        if (logarithmic)
+            for (double& y : series.y) y = y > 0.0 ? y : std::nan("");
+        plot.series.push_back(std::move(series));
+    };
+    for (const MethodResult& result : results)
+        if (result.history && result.history->rows() > 1) add(result.report.method, *result.history);
+    if (reference) {
+        add("resolved reference", *reference);
+        plot.series.back().line = LineStyle::dashed;
+    }
+    return plot;
+}
+
+/// Plots and pictures; a comparison without them is still one, so a failure is said and not thrown.
+void draw(const CompareRequest& request, const std::vector<MethodResult>& results,
+          const std::optional<History>& reference) {
+    const auto complain = [](const std::optional<std::string>& error) {
+        if (error) fmt::print(stderr, "no picture: {}\n", *error);
+    };
+    complain(render_plot(curve_plot(request, results, reference, "mean_stress", "mean stress [N/m]", true),
+                         request.folder / "stress.png"));
+    complain(render_plot(
+        curve_plot(request, results, reference, "coordination_number", "coordination number Z", false),
+        request.folder / "coordination.png"));
+    FramesSpec frames;
+    double low = 1.0;
+    double high = 0.0;
+    for (const MethodResult& result : results) {
+        if (!result.history || result.history->rows() == 0) continue;
+        const auto& phi = result.history->column("packing_fraction");
+        low = std::min(low, phi.front());
+        high = std::max(high, phi.back());
+        frames.runs.push_back({result.report.method, request.folder / result.report.method});
+    }
+    if (frames.runs.empty()) return;
+    frames.at_packing_fraction = {low, 0.5 * (low + high), high};
+    frames.out = request.folder / "pictures";
+    complain(render_frames(frames));
+}
+
+}  // namespace
+
+int compare(const CompareRequest& request) {
+    std::vector<const Method*> chosen;
+    for (const std::string& name : request.methods) chosen.push_back(&find_method(name));
+    const std::optional<History> reference =
+        request.reference.empty() ? std::nullopt : std::optional(read_history(request.reference));
+
+    make_folder(request.folder);
+    const Packing packing = make_packing(request.scenario);
+    write_packing_csv(request.folder / "initial_packing.csv", packing);
+    fmt::print("{} grains, undeformed packing fraction {:.4f}, box {:.4g} x {:.4g}\n", packing.size(),
+               packing.packing_fraction_undeformed(), packing.box.width(), packing.box.height());
+
+    std::vector<MethodResult> results;
+    int exit_code = 0;
+    for (const Method* method : chosen) {
+        results.push_back(run_one(request, packing, *method));
+        const RunReport& report = results.back().report;
+        if (report.exit_code > 128) return report.exit_code;
+        if (report.exit_code != 0) {
+            fmt::print(stderr, "{}: {}\n", report.method, report.ended);
+            exit_code = report.exit_code;
+        }
+    }
+
+    const auto phi = packing_fractions_to_compare(results, table_columns);
+    const std::string table = comparison_table(results, reference, phi);
+    fmt::print("\n{}\n", table);
+    write_text_atomically(request.folder / "comparison.md",
+                          fmt::format("# {}\n\n{}", request.scenario.title, table));
+    write_text_atomically(request.folder / "comparison.csv", comparison_csv(results, phi));
+    if (request.pictures) draw(request, results, reference);
+    fmt::print("Results in {}\n", request.folder.string());
+    return exit_code;
+}
+
+}  // namespace softgrain

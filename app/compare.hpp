@@ -1,0 +1,28 @@
+#pragma once
+// The main job: one packing, several methods, curves and pictures side by side.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/scenario.hpp"
+
+namespace softgrain {
+
+struct CompareRequest {
+    const Scenario& scenario;
+    std::vector<std::string> methods;
+    std::filesystem::path folder;
+    std::filesystem::path
+        reference;  ///< CSV with packing_fraction, mean_stress, coordination_number; empty for none
+    int threads = 1;
+    bool resume = false;
+    bool force = false;
+    bool pictures = true;
+    bool quiet = false;
+};
+
+/// Runs every method into folder/<method>/ and writes initial_packing.csv, comparison.md, comparison.csv,
+/// plots and pictures. Returns the exit code: 0, 3 if a method diverged, 130 or 143 if stopped.
+int compare(const CompareRequest& request);
+
+}  // namespace softgrain

@@ -1,0 +1,215 @@
+// The command line: reads arguments, calls one function for each command, turns errors into exit codes.
+#include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "app/compare.hpp"
+#include "app/methods.hpp"
+#include "app/process.hpp"
+#include "app/run_folder.hpp"
+#include "common/errors.hpp"
+#include "common/observables/observable.hpp"
+#include "common/packing/make_packing.hpp"
+#include "version.hpp"
+#include "viz/client.hpp"
+
+namespace softgrain {
+namespace {
+
+struct Arguments {
+    std::string scenario;
+    std::string method;
+    std::vector<std::string> compared;
+    std::string out;
+    std::string reference;
+    std::vector<std::string> set;
+    std::vector<std::string> rest;
+    int threads = 0;
+    bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
+};
+
+int run_command(const Arguments& a) {
+    const Method& method = find_method(a.method);
+    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Packing packing = make_packing(scenario);
+    install_stop_signals();
+    const RunReport report = run_into_folder({.scenario = scenario,
+                                              .packing = packing,
+                                              .method = method,
+                                              .folder = a.out,
+                                              .threads = a.threads,
+                                              .resume = a.resume,
+                                              .force = a.force,
+                                              .quiet = a.quiet});
+    fmt::print("{}: {}\n{} steps, {:.2f} s wall, {:.2f} s CPU, results in {}\n", report.method, report.ended,
+               report.steps, report.wall_time, report.cpu_time, a.out);
+    return report.exit_code;
+}
+
+int compare_command(const Arguments& a) {
+    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    std::vector<std::string> chosen = a.compared;
+    if (chosen.empty())
+        for (const Method& m : methods()) chosen.emplace_back(m.name);
+    install_stop_signals();
+    return compare({.scenario = scenario,
+                    .methods = chosen,
+                    .folder = a.out,
+                    .reference = a.reference,
+                    .threads = a.threads,
+                    .resume = a.resume,
+                    .force = a.force,
+                    .pictures = !a.no_pictures,
+                    .quiet = a.quiet});
+}
+
+int validate_command(const Arguments& a) {
+    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    for (const Method& m : methods()) scenario_for(scenario, m);
+    fmt::print("{}: valid\n", a.scenario);
+    return 0;
+}
+
+int list_command(const Arguments& a) {
+    if (a.keys) {
+        fmt::print("{}", describe_keys(method_keys()));
+        return 0;
+    }
+    fmt::print("Methods\n");
+    for (const Method& m : methods())
+        fmt::print("  {:<10} {}{}\n", m.name, m.title,
+                   m.not_given.empty() ? "" : fmt::format(" (does not give: {})", m.not_given));
+    fmt::print("\nHistory columns\n");
+    for (const Observable& o : observables())
+        fmt::print("  {:<32} {}\n", o.name, o.unit.empty() ? "-" : o.unit);
+    fmt::print("\nScenario keys: softgrain list --keys\n");
+    return 0;
+}
+
+int info_command(const Arguments& a) {
+    const RunReport r = read_report(a.out);
+    const History history = read_history(std::filesystem::path(a.out) / "history.csv");
+    fmt::print(
+        "method       {}\nended        {}\ngrains       {}\nsteps        {}\nsimulated    {:.6g} s\nwall "
+        "time    "
+        "{:.2f} s\nCPU time     {:.2f} s\npeak memory  {:.1f} MB\nsamples      {}\n",
+        r.method, r.ended, r.grains, r.steps, r.simulated_time, r.wall_time, r.cpu_time, r.peak_memory / 1e6,
+        history.rows());
+    if (history.rows() == 0) return 0;
+    fmt::print("\n{:<32} {:>14} {:>14}\n", "", "first", "last");
+    for (const Observable& o : observables()) {
+        const auto& values = history.column(o.name);
+        fmt::print("{:<32} {:>14.6g} {:>14.6g} {}\n", o.name, values.front(), values.back(), o.unit);
+    }
+    return 0;
+}
+
+/// Drawing lives in an executable of its own; its arguments are passed on untouched.
+int render_command(const Arguments& a) {
+    const std::string program = find_renderer().string();
+    if (program.empty())
+        throw OutputError("softgrain-render is not beside this program; build or install it");
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (const std::string& word : a.rest) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(program.c_str(), argv.data());
+    throw OutputError(fmt::format("{}: cannot start the renderer: {}", program, std::strerror(errno)));
+}
+
+void scenario_options(CLI::App& command, Arguments& a) {
+    command.add_option("scenario", a.scenario, "scenario file (TOML)")->required();
+    command
+        .add_option("--set", a.set, "override a key, e.g. --set material.poisson_ratio=0.45; may be repeated")
+        ->take_all()
+        ->expected(1);
+}
+
+void run_options(CLI::App& command, Arguments& a) {
+    scenario_options(command, a);
+    command.add_option("--out", a.out, "folder for the results")->required();
+    command.add_option("--threads", a.threads, "number of threads; the results do not depend on it")
+        ->default_val(omp_get_num_procs())
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--resume", a.resume, "go on from the last checkpoint in the folder");
+    command.add_flag("--force", a.force, "replace results that are in the folder");
+    command.add_flag("--quiet", a.quiet, "no progress");
+}
+
+int command_line(int argc, char** argv) {
+    Arguments a;
+    CLI::App app{"softgrain: the same compaction through several models of soft grains", "softgrain"};
+    app.set_version_flag("--version", fmt::format("softgrain {} ({})", version, commit));
+    app.require_subcommand(1);
+    int (*chosen)(const Arguments&) = nullptr;
+    const auto add = [&](const char* name, const char* help, int (*function)(const Arguments&),
+                         const char* example) {
+        CLI::App* command = app.add_subcommand(name, help);
+        command->footer(fmt::format("Example:\n  softgrain {}", example));
+        command->callback([&chosen, function] { chosen = function; });
+        return command;
+    };
+
+    CLI::App* run = add("run", "run a scenario with one method", run_command,
+                        "run scenarios/default.toml --method sdem --out results/sdem");
+    run_options(*run, a);
+    run->add_option("--method", a.method, "sdem, bpm or rigid_dem")->required();
+
+    CLI::App* compare_app =
+        add("compare", "run a scenario with several methods from one initial packing", compare_command,
+            "compare scenarios/default.toml --methods sdem,bpm --out results/default");
+    run_options(*compare_app, a);
+    compare_app->add_option("--methods", a.compared, "comma separated; all methods if not given")
+        ->delimiter(',');
+    compare_app->add_option("--reference", a.reference,
+                            "CSV of a curve to show beside the methods and to measure errors against");
+    compare_app->add_flag("--no-pictures", a.no_pictures, "numbers only, no plots and pictures");
+
+    scenario_options(*add("validate", "check a scenario file and say all that is wrong with it",
+                          validate_command, "validate my_scenario.toml"),
+                     a);
+    add("list", "methods, history columns and scenario keys", list_command, "list --keys")
+        ->add_flag("--keys", a.keys, "every key of a scenario file with type, default, range and meaning");
+    add("info", "what a results folder holds", info_command, "info results/default/sdem")
+        ->add_option("folder", a.out, "results folder of one run")
+        ->required();
+    CLI::App* render =
+        add("render", "draw a run off-screen (softgrain render --help for its options)", render_command,
+            "render frames --run SDEM=results/default/sdem --at 0,0.5,1 --out pictures");
+    render->prefix_command();
+    render->set_help_flag();
+    render->callback([&] {
+        a.rest = render->remaining();
+        chosen = render_command;
+    });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return chosen(a);
+}
+
+}  // namespace
+}  // namespace softgrain
+
+int main(int argc, char** argv) {
+    try {
+        return softgrain::command_line(argc, argv);
+    } catch (const softgrain::InputError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 2;
+    } catch (const softgrain::DivergedError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 3;
+    } catch (const softgrain::OutputError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 4;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "not enough memory for this scenario\n");
+        return 4;
+    }
+}

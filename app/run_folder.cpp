@@ -1,0 +1,172 @@
+#include "app/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/methods.hpp"
+#include "app/process.hpp"
+#include "app/progress.hpp"
+#include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/history_csv.hpp"
+#include "common/io/run_file.hpp"
+#include "common/run.hpp"
+#include "version.hpp"
+#include "viz/writers/writers.hpp"
+
+namespace softgrain {
+namespace {
+
+using nlohmann::json;
+
+struct Clocks {
+    double wall = wall_clock();
+    double cpu = cpu_clock();
+};
+
+void write_report(const RunRequest& request, const RunReport& report, const RunState& state) {
+    const json text{
+        {"version", version},
+        {"commit", commit},
+        {"method", report.method},
+        {"scenario", request.scenario.source.string()},
+        {"title", request.scenario.title},
+        {"seed", request.scenario.seed},
+        {"threads", request.threads},
+        {"ended", report.ended},
+        {"exit_code", report.exit_code},
+        {"grains", report.grains},
+        {"steps", report.steps},
+        {"simulated_time", report.simulated_time},
+        {"time_step", report.steps > 0 ? report.simulated_time / static_cast<double>(report.steps) : 0.0},
+        {"wall_time", report.wall_time},
+        {"cpu_time", report.cpu_time},
+        {"peak_memory", report.peak_memory},
+        {"samples", state.history.size()},
+        {"frames", state.frame_times.size()},
+    };
+    write_text_atomically(request.folder / "run.json", text.dump(2) + "\n");
+}
+
+/// An unfinished or finished run of the same scenario, or nothing.
+std::optional<RunFile> earlier_run(const RunRequest& request, const std::string& scenario_text) {
+    const auto path = request.folder / "run.h5";
+    const bool there =
+        std::filesystem::exists(path) || std::filesystem::exists(request.folder / "history.csv");
+    if (!there) return std::nullopt;
+    if (request.force && !request.resume) return std::nullopt;
+    if (!request.resume)
+        throw InputError(fmt::format(
+            "{}: holds results already; go on with --resume, replace them with --force, or choose "
+            "another --out",
+            request.folder.string()));
+    if (!std::filesystem::exists(path)) return std::nullopt;  // stopped before its first checkpoint
+    RunFile file = read_run_file(path);
+    if (file.method != request.method.name || file.scenario != scenario_text)
+        throw InputError(fmt::format(
+            "{}: was made by another {}; --resume needs the same scenario and overrides (compare with {})",
+            path.string(), file.method != request.method.name ? "method" : "scenario",
+            (request.folder / "scenario.toml").string()));
+    return file;
+}
+
+}  // namespace
+
+RunReport run_into_folder(const RunRequest& request) {
+    const Scenario scenario = scenario_for(request.scenario, request.method);
+    const std::string scenario_text = write_scenario(request.scenario, method_keys());
+    make_folder(request.folder);
+    std::optional<RunFile> earlier = earlier_run(request, scenario_text);
+
+    omp_set_num_threads(request.threads);
+    reset_peak_memory();
+    const Clocks begin;
+    const auto solver = request.method.make(scenario, request.packing);
+    RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};
+    if (earlier) {
+        file = std::move(*earlier);
+        solver->load(file.solver);
+    } else {
+        write_text_atomically(request.folder / "scenario.toml", scenario_text);
+    }
+
+    HistoryWriter history(request.folder / "history.csv", file.state.history);
+    const Need grain_data = Need::area | Need::stress | Need::fields;
+    GrainWriter grains(request.folder, scenario.sampling.outlines ? grain_data | Need::outlines : grain_data);
+    ContactWriter contacts(request.folder);
+    WallWriter walls(request.folder);
+    std::vector<Observer*> observers{&history, &grains, &walls};
+    if (scenario.sampling.contacts) observers.push_back(&contacts);
+
+    Run run(scenario, request.packing, *solver, observers);
+    if (earlier) run.resume(file.state);
+    const double wall_before = file.wall_time;
+    const double cpu_before = file.cpu_time;
+    const auto checkpoint = [&] {
+        file.state = run.state();
+        file.solver = {};
+        solver->save(file.solver);
+        file.wall_time = wall_before + wall_clock() - begin.wall;
+        file.cpu_time = cpu_before + cpu_clock() - begin.cpu;
+        write_run_file(request.folder / "run.h5", file);
+    };
+
+    Progress progress(std::string(request.method.name), stderr_is_terminal());
+    double next_checkpoint = begin.wall + request.checkpoint_period;
+    RunReport report;
+    report.method = request.method.name;
+    report.grains = request.packing.size();
+    try {
+        if (!run.finished())
+            run.go(stop_signal(), [&] {
+                if (!request.quiet) progress.update(run);
+                if (wall_clock() < next_checkpoint) return;
+                checkpoint();
+                next_checkpoint = wall_clock() + request.checkpoint_period;
+            });
+        checkpoint();
+        report.ended = run.state().ended;
+        if (!run.finished()) {
+            report.exit_code = 128 + stop_signal().load();
+            report.ended = "stopped by a signal; go on with --resume";
+        }
+    } catch (const DivergedError& error) {
+        report.exit_code = 3;
+        report.ended = error.what();
+    }
+    if (!request.quiet) progress.finish(run);
+    report.steps = run.state().step;
+    report.simulated_time = run.state().time;
+    report.wall_time = wall_before + wall_clock() - begin.wall;
+    report.cpu_time = cpu_before + cpu_clock() - begin.cpu;
+    report.peak_memory = static_cast<double>(peak_memory());
+    write_report(request, report, run.state());
+    return report;
+}
+
+RunReport read_report(const std::filesystem::path& folder) {
+    const auto path = folder / "run.json";
+    std::ifstream file(path);
+    if (!file) throw InputError(fmt::format("{}: no such run (run.json is missing)", folder.string()));
+    try {
+        const json text = json::parse(file);
+        RunReport report;
+        report.method = text.at("method");
+        report.ended = text.at("ended");
+        report.exit_code = text.at("exit_code");
+        report.grains = text.at("grains");
+        report.steps = text.at("steps");
+        report.simulated_time = text.at("simulated_time");
+        report.wall_time = text.at("wall_time");
+        report.cpu_time = text.at("cpu_time");
+        report.peak_memory = text.at("peak_memory");
+        return report;
+    } catch (const json::exception& error) {
+        throw InputError(fmt::format("{}: damaged: {}", path.string(), error.what()));
+    }
+}
+
+}  // namespace softgrain

@@ -1,0 +1,42 @@
+#pragma once
+// One method, one scenario, one folder: history.csv, run.h5, VTK series, scenario.toml, run.json.
+#include <filesystem>
+#include <string>
+
+#include "common/packing/packing.hpp"
+#include "common/scenario.hpp"
+#include "common/solver.hpp"
+
+namespace softgrain {
+
+struct RunRequest {
+    const Scenario& scenario;  ///< as read; the method's own rate is applied here
+    const Packing& packing;
+    const Method& method;
+    std::filesystem::path folder;
+    int threads = 1;
+    bool resume = false;              ///< go on from the folder's checkpoint if there is one
+    bool force = false;               ///< replace results that are there
+    double checkpoint_period = 60.0;  ///< wall time between checkpoints [s]
+    bool quiet = false;
+};
+
+struct RunReport {
+    std::string method;
+    std::string ended;  ///< "loading done", "left its range ...", "stopped by signal", "diverged: ..."
+    int exit_code = 0;
+    std::size_t grains = 0;
+    long long steps = 0;
+    double simulated_time = 0.0;  ///< [s]
+    double wall_time = 0.0;       ///< [s], all sessions of a resumed run
+    double cpu_time = 0.0;        ///< [s]
+    double peak_memory = 0.0;     ///< [bytes]
+};
+
+/// Runs and writes. Divergence and signals are reported, not thrown; InputError and OutputError are thrown.
+RunReport run_into_folder(const RunRequest& request);
+
+/// Report of an earlier run from its run.json. Throws InputError.
+RunReport read_report(const std::filesystem::path& folder);
+
+}  // namespace softgrain

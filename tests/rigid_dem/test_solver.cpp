@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "rigid_dem/method.hpp"
+#include "rigid_dem/solver.hpp"
+
+namespace softgrain::rigid_dem {
+namespace {
+
+Scenario scenario_with(double friction, double restitution) {
+    Scenario s;
+    s.material = {.youngs_modulus = 1.0, .poisson_ratio = 0.3, .density = 1.0, .friction = friction};
+    Settings table(method().keys());
+    table.set("restitution", restitution);
+    table.set("overlap_limit", 0.1);
+    s.method_settings["rigid_dem"] = table;
+    return s;
+}
+
+Packing two_discs(double gap) {
+    Packing p;
+    p.box.position = {-100.0, 100.0, -100.0, 100.0};
+    p.center = {{-1.0 - 0.5 * gap, 0.0}, {1.0 + 0.5 * gap, 0.0}};
+    p.radius = {1.0, 1.0};
+    return p;
+}
+
+void run(RigidDem& dem, const Packing& p, double time, double dt) {
+    const WallMotion rest{p.box, {}};
+    for (int k = 0; k < static_cast<int>(time / dt); ++k) dem.advance(rest, dt);
+}
+
+/// Two equal discs on a spring k: contact lasts pi / omega, omega = sqrt(2 k / m); positions follow a half
+/// sine.
+TEST(RigidDem, CollisionFollowsTheHalfSine) {
+    const Packing p = two_discs(0.0);
+    RigidDem dem(scenario_with(0.0, 1.0), p);
+    const double speed = 1e-3;
+    dem.set_velocity(std::vector<Vec2>{{speed, 0.0}, {-speed, 0.0}}, std::vector<double>{0.0, 0.0});
+    const double omega = std::sqrt(2.0 * 0.5 / std::numbers::pi);
+    const double dt = 0.002 / omega;
+    run(dem, p, 0.5 * std::numbers::pi / omega, dt);
+    const GrainView view = dem.view(Need::base);
+    const double overlap = 2.0 - (view.centroid[1] - view.centroid[0]).norm();
+    EXPECT_NEAR(overlap, 2.0 * speed / omega, 2e-5 * speed);  // second order in dt
+    run(dem, p, std::numbers::pi / omega, dt);
+    EXPECT_NEAR(dem.view(Need::base).velocity[1].x(), speed, 1e-5 * speed);
+}
+
+TEST(RigidDem, RestitutionIsTheOneAskedFor) {
+    for (const double e : {0.2, 0.5, 0.8, 1.0}) {
+        const Packing p = two_discs(0.01);
+        RigidDem dem(scenario_with(0.0, e), p);
+        dem.set_velocity(std::vector<Vec2>{{0.01, 0.0}, {-0.01, 0.0}}, std::vector<double>{0.0, 0.0});
+        run(dem, p, 30.0, 0.001);
+        EXPECT_NEAR(dem.view(Need::base).velocity[1].x() / 0.01, e,
+                    1e-3);  // first order in dt: the dashpot lags
+    }
+}
+
+TEST(RigidDem, ObliqueCollisionKeepsLinearAndAngularMomentum) {
+    Packing p = two_discs(0.05);
+    p.center[1].y() = 0.6;
+    RigidDem dem(scenario_with(0.5, 0.6), p);
+    dem.set_velocity(std::vector<Vec2>{{0.02, 0.0}, {-0.01, 0.005}}, std::vector<double>{0.02, -0.01});
+    const auto momenta = [&] {
+        const GrainView v = dem.view(Need::base);
+        Vec2 linear = Vec2::Zero();
+        double angular = 0.0;
+        for (std::size_t i = 0; i < 2; ++i) {
+            linear += v.mass[i] * v.velocity[i];
+            angular += v.mass[i] * cross(v.centroid[i], v.velocity[i]) + 0.5 * v.mass[i] * dem.spin()[i];
+        }
+        return std::pair(linear, angular);
+    };
+    const auto before = momenta();
+    run(dem, p, 60.0, 0.005);
+    const auto after = momenta();
+    EXPECT_GT(dem.view(Need::base).energy.friction, 0.0) << "the discs should have slid";
+    EXPECT_NEAR((after.first - before.first).norm(), 0.0, 1e-15);
+    EXPECT_NEAR(after.second, before.second, 1e-13);
+}
+
+/// dt < 2 sqrt(m / k) of the course: the same collision explodes beyond the limit and not below it.
+TEST(RigidDem, StabilityLimitIsWhereItIsPredicted) {
+    Packing p;  // one disc squeezed between two walls: omega^2 = 2 E / m
+    p.box.position = {0.0, 1.98, -5.0, 5.0};
+    p.center = {{0.991, 0.0}};
+    p.radius = {1.0};
+    const double limit = 2.0 / std::sqrt(2.0 / std::numbers::pi);
+    const auto speed_after = [&](double dt) {
+        RigidDem dem(scenario_with(0.0, 1.0), p);
+        const WallMotion rest{p.box, {}};
+        for (int k = 0; k < 400; ++k) dem.advance(rest, dt);
+        return dem.view(Need::base).velocity[0].norm();
+    };
+    const double starting =
+        0.001 * std::sqrt(2.0 / std::numbers::pi);  // free oscillation from 0.001 off centre
+    EXPECT_LT(speed_after(0.98 * limit), 2.0 * starting);
+    EXPECT_GT(speed_after(1.02 * limit), 4.0 * starting);
+    RigidDem dem(scenario_with(0.0, 1.0), p);
+    EXPECT_LE(dem.stable_time_step(), 0.5 * limit * (1.0 + 1e-12));
+}
+
+TEST(RigidDem, LeavesItsValidityAtTheOverlapLimit) {
+    Packing p = two_discs(-0.099);
+    RigidDem inside(scenario_with(0.0, 1.0), p);
+    EXPECT_FALSE(inside.outside_validity());
+    p = two_discs(-0.101);
+    RigidDem outside(scenario_with(0.0, 1.0), p);
+    ASSERT_TRUE(outside.outside_validity());
+    EXPECT_NE(outside.outside_validity()->find("grains 0 and 1"), std::string::npos);
+}
+
+TEST(RigidDem, TooLargeAStepIsNamedAndNotHidden) {
+    const Packing p = two_discs(-0.05);
+    RigidDem dem(scenario_with(0.0, 1.0), p);
+    try {
+        run(dem, p, 1e6, 1e4);
+        FAIL() << "should have diverged";
+    } catch (const DivergedError& error) {
+        EXPECT_EQ(error.grain, 0);
+        EXPECT_EQ(error.quantity, "velocity");
+    }
+}
+
+/// Lens of two discs: the closed form of the covered area.
+TEST(RigidDem, CoveredAreaCountsOverlapsOnce) {
+    const Packing p = two_discs(-0.1);
+    RigidDem dem(scenario_with(0.0, 1.0), p);
+    const double d = 1.9;
+    const double lens = 2.0 * std::acos(d / 2.0) - 0.5 * d * std::sqrt(4.0 - d * d);
+    const GrainView view = dem.view(Need::area);
+    EXPECT_NEAR(view.covered_area, 2.0 * std::numbers::pi - lens, 1e-13);
+    EXPECT_NEAR(view.area[0], std::numbers::pi - 0.5 * lens, 1e-13);
+}
+
+}  // namespace
+}  // namespace softgrain::rigid_dem
