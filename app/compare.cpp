@@ -107,7 +107,7 @@ int compare(const CompareRequest& request) {
     const std::optional<History> reference =
         request.reference.empty() ? std::nullopt : std::optional(read_history(request.reference));
 
-    make_folder(request.folder);
+    make_directories(request.folder);
     const Packing packing = make_packing(request.scenario);
     write_packing_csv(request.folder / "initial_packing.csv", packing);
     fmt::print("{} grains, undeformed packing fraction {:.4f}, box {:.4g} x {:.4g}\n", packing.size(),
@@ -128,9 +128,9 @@ int compare(const CompareRequest& request) {
     const auto phi = packing_fractions_to_compare(results, table_columns);
     const std::string table = comparison_table(results, reference, phi);
     fmt::print("\n{}\n", table);
-    write_text_atomically(request.folder / "comparison.md",
+    write_file_atomically(request.folder / "comparison.md",
                           fmt::format("# {}\n\n{}", request.scenario.title, table));
-    write_text_atomically(request.folder / "comparison.csv", comparison_csv(results, phi));
+    write_file_atomically(request.folder / "comparison.csv", comparison_csv(results, phi));
     if (request.pictures) draw(request, results, reference);
     fmt::print("Results in {}\n", request.folder.string());
     return exit_code;

@@ -28,7 +28,7 @@ Progress::Progress(std::string label, bool terminal)
       started_(wall_clock()),
       next_(started_ + (terminal ? 0.0 : line_period)) {}
 
-void Progress::update(const Run& run) {
+void Progress::update(const TimeLoop& run) {
     if (fraction_at_start_ < 0.0) fraction_at_start_ = run.loading_done();
     const double now = wall_clock();
     if (now < next_) return;
@@ -36,7 +36,7 @@ void Progress::update(const Run& run) {
     show(run, now);
 }
 
-void Progress::show(const Run& run, double now) {
+void Progress::show(const TimeLoop& run, double now) {
     const RunState& state = run.state();
     const double done = run.loading_done();
     const double stress = 0.5 * wall_stress(state.mean_force, state.box).sum();
@@ -54,7 +54,7 @@ void Progress::show(const Run& run, double now) {
     std::fflush(stderr);
 }
 
-void Progress::finish(const Run& run) {
+void Progress::finish(const TimeLoop& run) {
     if (fraction_at_start_ < 0.0) fraction_at_start_ = 0.0;
     show(run, wall_clock());
     if (terminal_) fmt::print(stderr, "\n");

@@ -2,7 +2,7 @@
 // How far a run is: one bar on a terminal, plain lines elsewhere. Written to standard error.
 #include <string>
 
-#include "common/run.hpp"
+#include "common/time_loop.hpp"
 
 namespace softgrain {
 
@@ -10,11 +10,11 @@ class Progress {
   public:
     Progress(std::string label, bool terminal);
     /// Cheap to call after every step; shows something only when enough time has passed.
-    void update(const Run& run);
-    void finish(const Run& run);
+    void update(const TimeLoop& run);
+    void finish(const TimeLoop& run);
 
   private:
-    void show(const Run& run, double now);
+    void show(const TimeLoop& run, double now);
 
     std::string label_;
     bool terminal_;

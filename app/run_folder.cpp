@@ -13,7 +13,7 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/history_csv.hpp"
 #include "common/io/run_file.hpp"
-#include "common/run.hpp"
+#include "common/time_loop.hpp"
 #include "version.hpp"
 #include "viz/writers/writers.hpp"
 
@@ -48,7 +48,7 @@ void write_report(const RunRequest& request, const RunReport& report, const RunS
         {"samples", state.history.size()},
         {"frames", state.frame_times.size()},
     };
-    write_text_atomically(request.folder / "run.json", text.dump(2) + "\n");
+    write_file_atomically(request.folder / "run.json", text.dump(2) + "\n");
 }
 
 /// An unfinished or finished run of the same scenario, or nothing.
@@ -78,7 +78,7 @@ std::optional<RunFile> earlier_run(const RunRequest& request, const std::string&
 RunReport run_into_folder(const RunRequest& request) {
     const Scenario scenario = scenario_for(request.scenario, request.method);
     const std::string scenario_text = write_scenario(request.scenario, method_keys());
-    make_folder(request.folder);
+    make_directories(request.folder);
     std::optional<RunFile> earlier = earlier_run(request, scenario_text);
 
     omp_set_num_threads(request.threads);
@@ -90,7 +90,7 @@ RunReport run_into_folder(const RunRequest& request) {
         file = std::move(*earlier);
         solver->load(file.solver);
     } else {
-        write_text_atomically(request.folder / "scenario.toml", scenario_text);
+        write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 
     HistoryWriter history(request.folder / "history.csv", file.state.history);
@@ -101,7 +101,7 @@ RunReport run_into_folder(const RunRequest& request) {
     std::vector<Observer*> observers{&history, &grains, &walls};
     if (scenario.sampling.contacts) observers.push_back(&contacts);
 
-    Run run(scenario, request.packing, *solver, observers);
+    TimeLoop run(scenario, request.packing, *solver, observers);
     if (earlier) run.resume(file.state);
     const double wall_before = file.wall_time;
     const double cpu_before = file.cpu_time;

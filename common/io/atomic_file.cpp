@@ -6,57 +6,83 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <string>
+#include <system_error>
 
 #include "common/errors.hpp"
 
 namespace softgrain {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
-    throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno)));
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view action, int error) {
+    throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
 }
 
-void sync(const std::filesystem::path& path, int flags) {
-    const int file = ::open(path.c_str(), flags);
-    if (file < 0) fail(path, "open to sync");
-    const int failed = ::fsync(file);
-    ::close(file);
-    if (failed != 0) fail(path, "sync");
+/// A descriptor that is closed, and its file removed, unless the write is completed.
+class FileAside {
+  public:
+    FileAside(const std::filesystem::path& path, std::string_view name) : path_(path), name_(name) {
+        descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+        if (descriptor_ < 0) fail(name_, "create the file", errno);
+    }
+    FileAside(const FileAside&) = delete;
+    FileAside& operator=(const FileAside&) = delete;
+    ~FileAside() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!completed_) ::unlink(path_.c_str());
+    }
+
+    void write(std::string_view bytes) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) fail(name_, "write", errno);
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+    void rename_to(const std::filesystem::path& target) {
+        if (::fsync(descriptor_) != 0) fail(name_, "flush to the disk", errno);
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0) fail(name_, "close", errno);
+        if (::rename(path_.c_str(), target.c_str()) != 0) fail(name_, "rename", errno);
+        completed_ = true;
+    }
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path name_;
+    int descriptor_ = -1;
+    bool completed_ = false;
+};
+
+/// Makes a rename survive a power cut. Some file systems do not know fsync of a folder: no error then.
+void flush_directory(const std::filesystem::path& directory) {
+    const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    const int flushed = ::fsync(descriptor);
+    const int error = errno;
+    ::close(descriptor);
+    if (flushed != 0 && error != EINVAL && error != ENOTSUP) fail(directory, "flush to the disk", error);
 }
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write) {
-    std::filesystem::path aside = path;
-    aside += ".part";
-    try {
-        write(aside);
-        sync(aside, O_RDONLY);
-    } catch (...) {
-        ::unlink(aside.c_str());
-        throw;
-    }
-    if (::rename(aside.c_str(), path.c_str()) != 0) fail(path, "rename into place");
-    sync(path.has_parent_path() ? path.parent_path() : ".", O_RDONLY | O_DIRECTORY);
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+    const std::filesystem::path aside = path.string() + ".part";
+    FileAside file(aside, path.string());
+    file.write(bytes);
+    file.rename_to(path);
+    flush_directory(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
 }
 
-void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
-    write_atomically(path, [&](const std::filesystem::path& aside) {
-        errno = 0;
-        std::ofstream file(aside, std::ios::binary);
-        file.write(text.data(), static_cast<std::streamsize>(text.size()));
-        file.close();
-        if (!file) fail(path, "write");
-    });
-}
-
-void make_folder(const std::filesystem::path& path) {
+void make_directories(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
+    if (!error && !std::filesystem::is_directory(path, error))
+        error = std::make_error_code(std::errc::not_a_directory);
     if (error)
-        throw OutputError(fmt::format("{}: cannot make this folder: {}", path.string(), error.message()));
+        throw OutputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));
 }
 
 }  // namespace softgrain

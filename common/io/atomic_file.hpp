@@ -1,19 +1,15 @@
 #pragma once
-// Files that are either complete or not there: written aside, synced, renamed, folder synced.
+// Files that are either complete or absent: written aside, flushed to the disk, then renamed.
 #include <filesystem>
-#include <functional>
 #include <string_view>
 
 namespace softgrain {
 
-/// Calls `write` with a temporary path beside `path`, then syncs and renames it. Throws OutputError.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
-
-/// The same for a text.
-void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+/// Replaces `path` with `bytes`. Throws OutputError naming the file and the system's reason (full disk, no
+/// permission, missing folder); the old file then stays as it was and nothing is left aside.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// Makes a folder and its parents. Throws OutputError.
-void make_folder(const std::filesystem::path& path);
+void make_directories(const std::filesystem::path& path);
 
 }  // namespace softgrain

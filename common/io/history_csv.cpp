@@ -33,7 +33,7 @@ HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<std::
     for (const Observable& o : observables()) names.push_back(o.name);
     std::string text = fmt::format("{}\n", fmt::join(names, ","));
     for (const auto& row : rows) text += line_of(row);
-    write_text_atomically(path_, text);
+    write_file_atomically(path_, text);
     file_.open(path_, std::ios::binary | std::ios::app);
     if (!file_) throw OutputError(fmt::format("{}: cannot append to it", path_.string()));
 }

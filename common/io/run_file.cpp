@@ -84,28 +84,38 @@ void write_history(const H5::Group& group, const std::vector<std::vector<double>
     }
 }
 
+/// The file as bytes: HDF5 builds it in memory, because it cannot be trusted on a disk that is full.
+std::string file_image(const RunFile& content) {
+    H5::FileAccPropList in_memory;
+    in_memory.setCore(1U << 20U, false);
+    const H5::H5File file("run", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+    write_text(file, "version", content.version);
+    write_text(file, "method", content.method);
+    write_text(file, "scenario", content.scenario);
+    write_array(file, "time_spent", std::vector<double>{content.wall_time, content.cpu_time});
+    write_history(file.createGroup("history"), content.state.history);
+    const H5::Group checkpoint = file.createGroup("checkpoint");
+    Checkpoint loop;
+    content.state.save(loop);
+    write_checkpoint(checkpoint.createGroup("loop"), loop);
+    write_checkpoint(checkpoint.createGroup("solver"), content.solver);
+    file.flush(H5F_SCOPE_GLOBAL);
+    const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
+    std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+    if (size < 0 || H5Fget_file_image(file.getId(), bytes.data(), bytes.size()) != size)
+        throw H5::FileIException("file_image", "H5Fget_file_image failed");
+    return bytes;
+}
+
 }  // namespace
 
 void write_run_file(const std::filesystem::path& path, const RunFile& content) {
     H5::Exception::dontPrint();
-    write_atomically(path, [&](const std::filesystem::path& aside) {
-        try {
-            H5::H5File file(aside.string(), H5F_ACC_TRUNC);
-            write_text(file, "version", content.version);
-            write_text(file, "method", content.method);
-            write_text(file, "scenario", content.scenario);
-            write_array(file, "time_spent", std::vector<double>{content.wall_time, content.cpu_time});
-            write_history(file.createGroup("history"), content.state.history);
-            const H5::Group checkpoint = file.createGroup("checkpoint");
-            Checkpoint loop;
-            content.state.save(loop);
-            write_checkpoint(checkpoint.createGroup("loop"), loop);
-            write_checkpoint(checkpoint.createGroup("solver"), content.solver);
-            file.close();
-        } catch (const H5::Exception& error) {
-            throw OutputError(fmt::format("{}: cannot write it: {}", path.string(), error.getDetailMsg()));
-        }
-    });
+    try {
+        write_file_atomically(path, file_image(content));
+    } catch (const H5::Exception& error) {
+        throw OutputError(fmt::format("{}: cannot make it: {}", path.string(), error.getDetailMsg()));
+    }
 }
 
 RunFile read_run_file(const std::filesystem::path& path) {

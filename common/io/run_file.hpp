@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/checkpoint.hpp"
-#include "common/run.hpp"
+#include "common/time_loop.hpp"
 
 namespace softgrain {
 

@@ -38,10 +38,11 @@ struct RunState {
     void load(const Checkpoint& from);
 };
 
-class Run {
+class TimeLoop {
   public:
     /// `scenario`, `solver` and the observers must outlive the run.
-    Run(const Scenario& scenario, const Packing& packing, Solver& solver, std::vector<Observer*> observers);
+    TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
+             std::vector<Observer*> observers);
 
     /// Continue from a saved state instead of the start; the solver must have loaded its own part.
     void resume(const RunState& state);

@@ -1,4 +1,4 @@
-#include "common/run.hpp"
+#include "common/time_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace softgrain {
 
-Run::Run(const Scenario& scenario, const Packing& packing, Solver& solver, std::vector<Observer*> observers)
+TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
+                   std::vector<Observer*> observers)
     : scenario_(scenario),
       solver_(solver),
       observers_(std::move(observers)),
@@ -21,7 +22,7 @@ Run::Run(const Scenario& scenario, const Packing& packing, Solver& solver, std::
     state_.box = state_.initial_box = packing.box;
 }
 
-void Run::resume(const RunState& state) {
+void TimeLoop::resume(const RunState& state) {
     state_ = state;
     driver_.assign(1,
                    StageDriver(scenario_.loading[static_cast<std::size_t>(state_.stage)], scenario_.sampling,
@@ -29,7 +30,7 @@ void Run::resume(const RunState& state) {
     for (Observer* observer : observers_) observer->resume(state_.frame_times);
 }
 
-void Run::start() {
+void TimeLoop::start() {
     const GrainView view = solver_.view(Need::area);
     state_.initial_energy = view.energy.kinetic + view.energy.elastic;
     state_.packing_fraction = view.covered_area / view.box.area();
@@ -38,7 +39,7 @@ void Run::start() {
     sample(driver_.front(), false);
 }
 
-void Run::begin_stage(int stage) {
+void TimeLoop::begin_stage(int stage) {
     state_.stage = stage;
     state_.stage_box = state_.box;
     state_.stage_time = 0.0;
@@ -48,7 +49,7 @@ void Run::begin_stage(int stage) {
                                   state_.initial_box, state_.stage_box, undeformed_area_));
 }
 
-void Run::go(const std::atomic<int>& stop, const std::function<void()>& after_step) {
+void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& after_step) {
     if (driver_.empty()) start();
     while (!finished() && stop.load(std::memory_order_relaxed) == 0) {
         step(driver_.front());
@@ -56,7 +57,7 @@ void Run::go(const std::atomic<int>& stop, const std::function<void()>& after_st
     }
 }
 
-void Run::step(const StageDriver& driver) {
+void TimeLoop::step(const StageDriver& driver) {
     const double interval = driver.sample_interval();
     const double check_interval = interval / checks_per_sample_;
     const double progress = driver.progress(state_.box, state_.stage_time);
@@ -87,7 +88,7 @@ void Run::step(const StageDriver& driver) {
     state_.impulse_time += dt;
 }
 
-void Run::check(const StageDriver& driver, bool at_end) {
+void TimeLoop::check(const StageDriver& driver, bool at_end) {
     if (!at_end) ++state_.checks;
     solver_.check_finite();
     if (state_.impulse_time > 0.0) {
@@ -112,7 +113,7 @@ void Run::check(const StageDriver& driver, bool at_end) {
     if (over && !finished()) begin_stage(state_.stage + 1);
 }
 
-void Run::sample(const StageDriver& driver, bool last) {
+void TimeLoop::sample(const StageDriver& driver, bool last) {
     const auto index = static_cast<int>(state_.history.size());
     Sample sample;
     sample.index = index;
@@ -143,11 +144,11 @@ void Run::sample(const StageDriver& driver, bool last) {
     for (Observer* observer : observers_) observer->observe(view, sample);
 }
 
-double Run::mean_stress() const {
+double TimeLoop::mean_stress() const {
     return 0.5 * wall_stress(state_.mean_force, state_.box).sum();
 }
 
-double Run::loading_done() const {
+double TimeLoop::loading_done() const {
     if (finished()) return 1.0;
     const auto stages = static_cast<double>(scenario_.loading.size());
     const LoadingStage& stage = scenario_.loading[static_cast<std::size_t>(state_.stage)];

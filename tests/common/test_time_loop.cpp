@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/observables/observable.hpp"
+#include "common/time_loop.hpp"
+#include "tests/support/affine_solver.hpp"
+
+namespace softgrain {
+namespace {
+
+using testing::AffineSolver;
+
+const std::atomic<int> never{0};
+
+Packing square_of_four() {
+    Packing p;
+    p.box.position = {0.0, 1.0, 0.0, 2.0};
+    p.center = {{0.25, 0.5}, {0.75, 0.5}, {0.25, 1.5}, {0.75, 1.5}};
+    p.radius = {0.2, 0.2, 0.2, 0.2};
+    return p;
+}
+
+Scenario with_stages(std::vector<LoadingStage> stages) {
+    Scenario s;
+    s.loading = std::move(stages);
+    s.sampling.strain_interval = 0.02;
+    s.sampling.frame_every = 2;
+    return s;
+}
+
+LoadingStage isotropic(double until_strain) {
+    LoadingStage stage;
+    stage.until_strain = until_strain;
+    stage.strain_rate = 0.1;
+    return stage;
+}
+
+double value(const RunState& state, std::size_t row, std::string_view column) {
+    return state.history.at(row).at(observable_index(column));
+}
+
+TEST(TimeLoop, SamplesAtEqualStrainWhateverTheTimeStep) {
+    for (const double dt : {0.01, 0.0037}) {
+        const Packing packing = square_of_four();
+        const Scenario scenario = with_stages({isotropic(0.1)});
+        AffineSolver solver(packing);
+        solver.time_step = dt;
+        TimeLoop run(scenario, packing, solver, {});
+        run.go(never);
+        ASSERT_EQ(run.state().history.size(), 6U);
+        for (std::size_t k = 0; k < 6; ++k)
+            EXPECT_NEAR(value(run.state(), k, "axial_strain"), 0.02 * static_cast<double>(k), 1e-11);
+        EXPECT_EQ(run.state().ended, "loading done");
+        EXPECT_NEAR(run.state().box.width(), 0.9, 1e-11);
+        EXPECT_NEAR(run.state().box.height(), 1.8, 1e-11);
+        EXPECT_NEAR(run.state().box.position[0], 0.05, 1e-11) << "walls close from both sides";
+        EXPECT_NEAR(run.state().time, 1.0, 1e-9);
+    }
+}
+
+TEST(TimeLoop, WallStressIsTheMeanOverTheWindowBeforeTheSample) {
+    const Packing packing = square_of_four();
+    Scenario scenario = with_stages({isotropic(0.1)});
+    scenario.sampling.average_window = 0.5;
+    AffineSolver solver(packing);
+    solver.time_step = 1e-4;
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    // Force on a side wall p h with p = 1/(1-e)^2 - 1, h = 2 (1-e); its mean over e from 0.09 to 0.10, over h
+    // at the end.
+    const double mean = (std::log(0.91 / 0.90) - 0.5 * (0.91 * 0.91 - 0.90 * 0.90)) / 0.01;
+    EXPECT_NEAR(value(run.state(), 5, "stress_xx"), mean / 0.9, 1e-4) << "the time step leaves 1e-5";
+}
+
+TEST(TimeLoop, OedometricMovesOneWallOnly) {
+    const Packing packing = square_of_four();
+    for (int wall = 0; wall < 4; ++wall) {
+        LoadingStage stage = isotropic(0.1);
+        stage.kind = LoadingKind::oedometric;
+        stage.wall = static_cast<Wall>(wall);
+        const Scenario scenario = with_stages({stage});
+        AffineSolver solver(packing);
+        TimeLoop run(scenario, packing, solver, {});
+        run.go(never);
+        for (int other = 0; other < 4; ++other) {
+            const double moved = std::abs(run.state().box.position[static_cast<std::size_t>(other)] -
+                                          packing.box.position[static_cast<std::size_t>(other)]);
+            EXPECT_NEAR(moved, other == wall ? 0.1 * (wall < 2 ? 1.0 : 2.0) : 0.0, 1e-11);
+        }
+    }
+}
+
+TEST(TimeLoop, EndsAtThePackingFractionAsked) {
+    const Packing packing = square_of_four();
+    LoadingStage stage;
+    stage.strain_rate = 0.1;
+    stage.until_packing_fraction_undeformed = 0.3;
+    for (const LoadingKind kind : {LoadingKind::isotropic, LoadingKind::oedometric}) {
+        stage.kind = kind;
+        const Scenario scenario = with_stages({stage});
+        AffineSolver solver(packing);
+        TimeLoop run(scenario, packing, solver, {});
+        run.go(never);
+        EXPECT_NEAR(run.state().history.back()[observable_index("packing_fraction_undeformed")], 0.3, 1e-10);
+    }
+    stage.until_packing_fraction_undeformed.reset();
+    stage.until_packing_fraction = 0.3;
+    const Scenario scenario = with_stages({stage});
+    AffineSolver solver(packing);
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    const double phi = run.state().history.back()[observable_index("packing_fraction")];
+    EXPECT_GE(phi, 0.3);
+    EXPECT_LT(phi, 0.3 * (1.0 + 2.5 * 0.005))
+        << "seen at the next check, a quarter of a sample later at most";
+}
+
+TEST(TimeLoop, EndsAtTheStressAsked) {
+    const Packing packing = square_of_four();
+    LoadingStage stage;
+    stage.strain_rate = 0.1;
+    stage.until_stress = 0.2;
+    const Scenario scenario = with_stages({stage});
+    AffineSolver solver(packing);
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    const double stress = run.state().history.back()[observable_index("mean_stress")];
+    EXPECT_GE(stress, 0.2);
+    EXPECT_LT(stress, 0.23);
+}
+
+TEST(TimeLoop, StagesFollowOneAnother) {
+    const Packing packing = square_of_four();
+    LoadingStage hold;
+    hold.kind = LoadingKind::hold;
+    hold.duration = 0.5;
+    LoadingStage more = isotropic(0.08);
+    more.kind = LoadingKind::oedometric;
+    more.wall = Wall::top;
+    const Scenario scenario = with_stages({isotropic(0.04), hold, more});
+    AffineSolver solver(packing);
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    EXPECT_NEAR(run.state().time, 0.4 + 0.5 + 0.4, 1e-9);
+    EXPECT_NEAR(run.state().box.height(), 2.0 * 0.92, 1e-11);
+    EXPECT_NEAR(run.state().box.width(), 0.96, 1e-11);
+    EXPECT_EQ(run.state().history.size(), 1U + 2U + 10U + 2U);
+}
+
+TEST(TimeLoop, InertialNumberSetsTheRate) {
+    const Packing packing = square_of_four();
+    LoadingStage stage;
+    stage.until_strain = 0.1;
+    stage.inertial_number = 0.01;
+    const Scenario scenario = with_stages({stage});
+    AffineSolver solver(packing);
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    EXPECT_NEAR(value(run.state(), 5, "inertial_number"), 0.01, 3e-4)
+        << "the pressure of the last check lags a little";
+}
+
+TEST(TimeLoop, LeavingTheValidityEndsInGoodOrder) {
+    const Packing packing = square_of_four();
+    const Scenario scenario = with_stages({isotropic(0.1)});
+    AffineSolver solver(packing);
+    solver.invalid_below = 0.95;
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    EXPECT_EQ(run.state().ended, "left its range of validity: the box is too narrow");
+    EXPECT_LT(run.state().box.width(), 0.95);
+    EXPECT_GT(run.state().box.width(), 0.94);
+    EXPECT_NEAR(value(run.state(), run.state().history.size() - 1, "box_width"), run.state().box.width(),
+                1e-15);
+}
+
+class CountingObserver final : public Observer {
+  public:
+    Need need(const Sample&) const override { return Need::base; }
+    void observe(const GrainView& view, const Sample& sample) override {
+        for (const Vec2& v : view.velocity) finite = finite && v.allFinite();
+        samples = sample.index + 1;
+        if (sample.is_frame) frames.push_back(view.time);
+    }
+    void resume(std::span<const double> times) override { frames.assign(times.begin(), times.end()); }
+    bool finite = true;
+    int samples = 0;
+    std::vector<double> frames;
+};
+
+TEST(TimeLoop, NothingNotFiniteReachesAnObserver) {
+    const Packing packing = square_of_four();
+    const Scenario scenario = with_stages({isotropic(0.1)});
+    AffineSolver solver(packing);
+    solver.poison_at = 0.5;
+    CountingObserver observer;
+    TimeLoop run(scenario, packing, solver, {&observer});
+    EXPECT_THROW(run.go(never), DivergedError);
+    EXPECT_TRUE(observer.finite);
+    EXPECT_EQ(observer.samples, 3);
+}
+
+TEST(TimeLoop, StoppedAnywhereAndResumedGivesTheSameBits) {
+    const Packing packing = square_of_four();
+    LoadingStage hold;
+    hold.kind = LoadingKind::hold;
+    hold.duration = 0.2;
+    LoadingStage fast = isotropic(0.1);
+    fast.strain_rate.reset();
+    fast.inertial_number = 0.02;
+    const Scenario scenario = with_stages({isotropic(0.04), hold, fast});
+    AffineSolver straight_solver(packing);
+    CountingObserver straight_observer;
+    TimeLoop straight(scenario, packing, straight_solver, {&straight_observer});
+    straight.go(never);
+
+    for (const int stop_after : {1, 7, 41, 53, 70, 90}) {
+        std::atomic<int> stop{0};
+        AffineSolver first_solver(packing);
+        CountingObserver first_observer;
+        TimeLoop first(scenario, packing, first_solver, {&first_observer});
+        first.go(stop, [&] { stop = first_solver.steps >= stop_after ? 15 : 0; });
+        ASSERT_FALSE(first.finished());
+        Checkpoint loop, state;
+        first.state().save(loop);
+        first_solver.save(state);
+
+        AffineSolver second_solver(packing);
+        second_solver.load(state);
+        RunState restored;
+        restored.load(loop);
+        CountingObserver second_observer;
+        TimeLoop second(scenario, packing, second_solver, {&second_observer});
+        second.resume(restored);
+        second.go(never);
+        EXPECT_EQ(second.state().history, straight.state().history) << "stopped after " << stop_after;
+        EXPECT_EQ(second_observer.frames, straight_observer.frames);
+        EXPECT_EQ(second.state().ended, straight.state().ended);
+    }
+}
+
+}  // namespace
+}  // namespace softgrain
