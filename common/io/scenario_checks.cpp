@@ -1,0 +1,138 @@
+#include "common/io/scenario_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/io/scenario_document.hpp"
+#include "common/io/scenario_schema.hpp"
+
+namespace softgrain::scenario_io {
+namespace {
+
+constexpr double largest_size_ratio = 1000.0;
+constexpr double largest_aspect_ratio = 100.0;
+
+/// `smaller` must not be above `larger`; reported where one of them was given.
+bool in_order(const CheckedTable& table, std::string_view smaller, std::string_view larger,
+              ErrorList& errors) {
+    const double low = table.settings.number(smaller);
+    const double high = table.settings.number(larger);
+    if (!table.sound({smaller, larger}) || low <= high) return true;
+    if (table.has(larger))
+        errors.add(table.place_of(larger), table.full(larger),
+                   fmt::format("must be at least {} = {}, got {}", smaller, low, high));
+    else
+        errors.add(table.place_of(smaller), table.full(smaller),
+                   fmt::format("must be at most {} = {}, got {}", larger, high, low));
+    return false;
+}
+
+void check_radii(const CheckedTable& packing, ErrorList& errors) {
+    if (!packing.sound({"size_law"})) return;
+    const std::string& law = packing.settings.text("size_law");
+    if (law == "single") return;
+    if (law == "gaussian") {
+        const bool above = in_order(packing, "radius_min", "radius_mean", errors);
+        const bool below = in_order(packing, "radius_mean", "radius_max", errors);
+        if (!above || !below) return;
+    } else if (!in_order(packing, "radius_min", "radius_max", errors)) {
+        return;
+    }
+    if (packing.sound({"radius_min", "radius_max"}) &&
+        packing.settings.number("radius_max") > largest_size_ratio * packing.settings.number("radius_min"))
+        errors.add(packing.place_of("radius_max"), packing.full("radius_max"),
+                   fmt::format("must be at most {} times radius_min", largest_size_ratio));
+}
+
+void check_packing_file(const CheckedTable& packing, const CheckedTable& box,
+                        const std::filesystem::path& folder, ErrorList& errors) {
+    const Place& place = packing.place_of("path");
+    for (const auto& [key, given] : packing.given)
+        if (key != "path")
+            errors.add(given.place, packing.full(key),
+                       "has no effect on a packing read from packing.path: remove one");
+    if (!box.has("width") || !box.has("height"))
+        errors.add(place, packing.full("path"), "needs the size of its box: give box.width and box.height");
+    if (!packing.sound({"path"})) return;
+    std::error_code status;
+    if (packing.settings.text("path").empty())
+        errors.add(place, packing.full("path"), "must not be empty");
+    else if (const auto file = packing_file(packing, folder); !std::filesystem::is_regular_file(file, status))
+        errors.add(place, packing.full("path"),
+                   fmt::format("names a file that is not there: '{}'", file.string()));
+}
+
+bool is_end(std::string_view key) {
+    return key.starts_with("until_");
+}
+
+void check_hold(const CheckedTable& stage, ErrorList& errors) {
+    if (!stage.has("duration"))
+        errors.add(stage.place, stage.full("duration"), "must be given: a hold ends after it");
+    for (const auto& [key, given] : stage.given)
+        if (key != "kind" && key != "duration")
+            errors.add(given.place, stage.full(key), "is not for a hold, whose walls stand still: remove it");
+}
+
+void check_moving_stage(const CheckedTable& stage, bool oedometric, ErrorList& errors) {
+    if (oedometric && !stage.has("wall"))
+        errors.add(stage.place, stage.full("wall"),
+                   "must be given for an oedometric stage: left, right, bottom or top");
+    if (!oedometric && stage.has("wall"))
+        errors.add(stage.place_of("wall"), stage.full("wall"),
+                   "is not for an isotropic stage, all walls move: remove it");
+    if (stage.has("duration"))
+        errors.add(stage.place_of("duration"), stage.full("duration"),
+                   "is for a hold only: use an until_... key");
+    if (std::none_of(stage.given.begin(), stage.given.end(), [](const auto& g) { return is_end(g.first); }))
+        errors.add(
+            stage.place, stage.path,
+            "has no end: give until_strain, until_packing_fraction, until_packing_fraction_undeformed or "
+            "until_stress");
+    if (stage.has("strain_rate") && stage.has("inertial_number"))
+        errors.add(std::max(stage.place_of("strain_rate"), stage.place_of("inertial_number"),
+                            [](const Place& a, const Place& b) { return a.line < b.line; }),
+                   stage.path, "has both strain_rate and inertial_number: remove one");
+    if (!stage.has("strain_rate") && !stage.has("inertial_number"))
+        errors.add(stage.place, stage.path, "has no speed: give strain_rate or inertial_number");
+}
+
+}  // namespace
+
+void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
+                   ErrorList& errors) {
+    if (packing.has("path")) {
+        check_packing_file(packing, box, folder, errors);
+        return;
+    }
+    check_radii(packing, errors);
+    if (box.has("width") != box.has("height")) {
+        const bool width = box.has("width");
+        errors.add(box.place_of(width ? "width" : "height"), box.full(width ? "width" : "height"),
+                   fmt::format("needs {} too", box.full(width ? "height" : "width")));
+    } else if (box.has("width") && box.sound({"width", "height"})) {
+        const double aspect = box.settings.number("height") / box.settings.number("width");
+        if (aspect > largest_aspect_ratio || aspect < 1.0 / largest_aspect_ratio)
+            errors.add(box.place_of("height"), box.full("height"),
+                       fmt::format("must be within a factor of {} of box.width", largest_aspect_ratio));
+    }
+}
+
+void check_stage(const CheckedTable& stage, ErrorList& errors) {
+    if (!stage.sound({"kind"})) return;
+    const std::string& kind = stage.settings.text("kind");
+    if (kind == "hold")
+        check_hold(stage, errors);
+    else
+        check_moving_stage(stage, kind == "oedometric", errors);
+}
+
+std::filesystem::path packing_file(const CheckedTable& packing, const std::filesystem::path& folder) {
+    const std::filesystem::path path = packing.settings.text("path");
+    const bool from_option = !packing.place_of("path").option.empty();
+    return std::filesystem::absolute(from_option ? path : folder / path).lexically_normal();
+}
+
+}  // namespace softgrain::scenario_io

@@ -1,0 +1,18 @@
+#pragma once
+// Checks between the keys of a table, and between tables.
+#include <filesystem>
+
+#include "common/io/scenario_errors.hpp"
+#include "common/io/scenario_table.hpp"
+
+namespace softgrain::scenario_io {
+
+/// `folder` is the one that a relative packing.path starts from.
+void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
+                   ErrorList& errors);
+void check_stage(const CheckedTable& stage, ErrorList& errors);
+
+/// packing.path as an absolute path.
+std::filesystem::path packing_file(const CheckedTable& packing, const std::filesystem::path& folder);
+
+}  // namespace softgrain::scenario_io

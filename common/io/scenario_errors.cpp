@@ -1,0 +1,36 @@
+#include "common/io/scenario_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/errors.hpp"
+
+namespace softgrain::scenario_io {
+
+void ErrorList::add(const Place& place, std::string_view subject, std::string_view text) {
+    const bool named_by_option = !place.option.empty() && place.option == subject;
+    entries_.push_back({place, named_by_option || subject.empty() ? std::string(text)
+                                                                  : fmt::format("{} {}", subject, text)});
+}
+
+void ErrorList::throw_if_any() const {
+    if (entries_.empty()) return;
+    std::vector<Entry> sorted = entries_;
+    const auto position = [](const Entry& e) {
+        return std::make_tuple(!e.place.option.empty(), e.place.line, e.place.column);
+    };
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const Entry& a, const Entry& b) { return position(a) < position(b); });
+    std::string all;
+    for (const Entry& e : sorted) {
+        if (!all.empty()) all += '\n';
+        all += e.place.option.empty()
+                   ? fmt::format("{}:{}:{}: {}", name_, e.place.line, e.place.column, e.text)
+                   : fmt::format("--set {}: {}", e.place.option, e.text);
+    }
+    throw InputError(all);
+}
+
+}  // namespace softgrain::scenario_io

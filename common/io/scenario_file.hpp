@@ -1,0 +1,37 @@
+#pragma once
+// Scenario files: TOML in, plain data out, and back.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/scenario.hpp"
+#include "common/settings.hpp"
+
+namespace softgrain {
+
+/// The table of one method, [name]. The reader itself knows no method.
+struct MethodKeys {
+    std::string_view name;
+    std::span<const KeySpec> keys;
+};
+
+/// Reads and checks a scenario. `overrides` are KEY=VALUE ("material.poisson_ratio=0.45",
+/// "loading.0.until_strain=0.2"), applied before the checks; the value is TOML, a bare word is text. An
+/// override of how a stage ends or how fast it goes takes the place of what the file says about that, and
+/// `packing.path` the place of the file's generator. A relative packing.path is looked up from the scenario's
+/// folder, from an override from the current one. Throws InputError: one line for each error.
+Scenario read_scenario(const std::filesystem::path& path, std::span<const std::string> overrides,
+                       std::span<const MethodKeys> methods);
+
+/// The same for text in memory; `name` stands for the file in messages and for relative paths.
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& name,
+                        std::span<const std::string> overrides, std::span<const MethodKeys> methods);
+
+/// The scenario with all defaults as TOML; units and meaning as comments. Reading it gives the same scenario.
+std::string write_scenario(const Scenario& scenario, std::span<const MethodKeys> methods);
+
+/// All tables and keys as text: type, default, range, unit, meaning.
+std::string describe_keys(std::span<const MethodKeys> methods);
+
+}  // namespace softgrain

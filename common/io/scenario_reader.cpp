@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include "common/errors.hpp"
+#include "common/io/scenario_checks.hpp"
+#include "common/io/scenario_document.hpp"
+#include "common/io/scenario_file.hpp"
+#include "common/io/scenario_overrides.hpp"
+#include "common/io/scenario_schema.hpp"
+#include "common/io/scenario_table.hpp"
+
+namespace softgrain {
+namespace {
+
+using namespace scenario_io;
+
+template <class Names>
+int position_in(const Names& names, std::string_view word) {
+    return static_cast<int>(std::find(names.begin(), names.end(), word) - names.begin());
+}
+
+std::optional<double> optional_number(const Settings& settings, std::string_view key) {
+    return settings.has(key) ? std::optional(settings.number(key)) : std::nullopt;
+}
+
+Material material_of(const Settings& s) {
+    return {s.number("youngs_modulus"), s.number("poisson_ratio"), s.number("density"), s.number("friction")};
+}
+
+PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& folder) {
+    const Settings& s = table.settings;
+    PackingSpec packing;
+    if (s.has("path")) packing.path = packing_file(table, folder);
+    packing.size_law = static_cast<SizeLaw>(position_in(size_law_names, s.text("size_law")));
+    packing.count = static_cast<int>(s.integer("count"));
+    packing.radius_mean = s.number("radius_mean");
+    packing.radius_deviation = s.number("radius_deviation");
+    packing.radius_min = s.number("radius_min");
+    packing.radius_max = s.number("radius_max");
+    packing.fractal_dimension = s.number("fractal_dimension");
+    packing.packing_fraction = optional_number(s, "packing_fraction");
+    return packing;
+}
+
+LoadingStage stage_of(const Settings& s) {
+    LoadingStage stage;
+    stage.kind = static_cast<LoadingKind>(position_in(loading_kind_names, s.text("kind")));
+    if (s.has("wall")) stage.wall = static_cast<Wall>(position_in(wall_names, s.text("wall")));
+    stage.until_strain = optional_number(s, "until_strain");
+    stage.until_packing_fraction = optional_number(s, "until_packing_fraction");
+    stage.until_packing_fraction_undeformed = optional_number(s, "until_packing_fraction_undeformed");
+    stage.until_stress = optional_number(s, "until_stress");
+    stage.duration = optional_number(s, "duration");
+    stage.strain_rate = optional_number(s, "strain_rate");
+    stage.inertial_number = optional_number(s, "inertial_number");
+    return stage;
+}
+
+Sampling sampling_of(const Settings& s) {
+    return {s.number("strain_interval"), s.number("average_window"),
+            static_cast<int>(s.integer("frame_every")), s.boolean("outlines"), s.boolean("contacts")};
+}
+
+/// Reads one document: checks every table, remembers every error.
+class Reader {
+  public:
+    Reader(const Node& document, const std::filesystem::path& source, std::span<const MethodKeys> methods,
+           ErrorList& errors)
+        : document_(document), source_(source), methods_(methods), errors_(errors) {
+        for (const TableSpec& table : core_tables()) tables_.push_back(table);
+        for (const MethodKeys& method : methods)
+            tables_.push_back({.name = method.name, .help = "", .keys = method.keys});
+    }
+
+    Scenario read() {
+        check_top_level();
+        Scenario scenario;
+        scenario.source = source_;
+        scenario.title = check_table(&document_, "", core_table("").keys, errors_).settings.text("title");
+        scenario.seed = static_cast<std::uint64_t>(table("random").settings.integer("seed"));
+        scenario.material = material_of(table("material").settings);
+        const CheckedTable packing = table("packing");
+        const CheckedTable box = table("box");
+        const std::filesystem::path folder = source_.parent_path();
+        check_packing(packing, box, folder, errors_);
+        scenario.packing = packing_of(packing, folder);
+        scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height")};
+        scenario.loading = stages();
+        scenario.sampling = sampling_of(table("sampling").settings);
+        for (const MethodKeys& method : methods_)
+            scenario.method_settings.emplace(method.name, table(method.name).settings);
+        return scenario;
+    }
+
+  private:
+    const TableSpec& spec(std::string_view name) const {
+        return *std::find_if(tables_.begin(), tables_.end(),
+                             [&](const TableSpec& table) { return table.name == name; });
+    }
+
+    /// The table if it is there and a table; anything else is an error.
+    const Node* table_node(std::string_view name) {
+        const Node* node = document_.find(name);
+        if (node == nullptr || node->kind == Node::Kind::table) return node;
+        errors_.add(node->place, name,
+                    fmt::format("must be one table, write [{}], got {}", name, describe(*node)));
+        return nullptr;
+    }
+
+    CheckedTable table(std::string_view name) {
+        const Node* node = table_node(name);
+        const TableSpec& keys = spec(name);
+        if (node != nullptr) report_unknown(*node, std::string(name), keys);
+        return check_table(node, std::string(name), keys.keys, errors_);
+    }
+
+    std::vector<LoadingStage> stages() {
+        const Node* node = document_.find("loading");
+        if (node == nullptr || (node->kind == Node::Kind::array && node->children.empty())) {
+            errors_.add(node == nullptr ? Place{} : node->place, "loading",
+                        "has no stage: write at least one [[loading]] table");
+            return {};
+        }
+        if (node->kind != Node::Kind::array) {
+            errors_.add(
+                node->place, "loading",
+                fmt::format("must be an array of tables, write [[loading]], got {}", describe(*node)));
+            return {};
+        }
+        std::vector<LoadingStage> all;
+        for (const Node& child : node->children) {
+            const std::string path = fmt::format("loading.{}", all.size());
+            all.emplace_back();
+            if (child.kind != Node::Kind::table) {
+                errors_.add(child.place, path, fmt::format("must be a table, got {}", describe(child)));
+                continue;
+            }
+            report_unknown(child, path, spec("loading"));
+            const CheckedTable stage = check_table(&child, path, spec("loading").keys, errors_);
+            check_stage(stage, errors_);
+            all.back() = stage_of(stage.settings);
+        }
+        return all;
+    }
+
+    void check_top_level() {
+        std::vector<std::string_view> words;
+        for (const TableSpec& table : tables_)
+            if (!table.name.empty()) words.push_back(table.name);
+        for (const KeySpec& key : core_table("").keys) words.push_back(key.name);
+        for (const Node& child : document_.children)
+            if (std::find(words.begin(), words.end(), child.key) == words.end()) {
+                const bool is_table = child.kind == Node::Kind::table || child.kind == Node::Kind::array;
+                unknown(child, is_table ? "table" : "key", child.key, words);
+            }
+    }
+
+    void report_unknown(const Node& node, const std::string& path, const TableSpec& table) {
+        std::vector<std::string_view> words;
+        for (const KeySpec& key : table.keys) words.push_back(key.name);
+        for (const Node& child : node.children)
+            if (std::find(words.begin(), words.end(), child.key) == words.end())
+                unknown(child, "key", fmt::format("{}.{}", path, child.key), words);
+    }
+
+    void unknown(const Node& node, std::string_view what, const std::string& full,
+                 std::span<const std::string_view> words) {
+        std::string text = fmt::format("unknown {} '{}'", what, shown(full));
+        if (const std::string_view meant = suggest(node.key, words); !meant.empty())
+            text += fmt::format(", did you mean '{}'?", meant);
+        else if (const std::string_view home = home_of(node.key); !home.empty())
+            text += fmt::format(", it belongs to [{}]", home);
+        else
+            text += fmt::format(", known are {}", join(words));
+        errors_.add(node.key_place, "", text);
+    }
+
+    /// The table that has this key, "" if none.
+    std::string_view home_of(std::string_view key) const {
+        for (const TableSpec& table : tables_)
+            for (const KeySpec& one : table.keys)
+                if (one.name == key) return table.name;
+        return {};
+    }
+
+    const Node& document_;
+    const std::filesystem::path& source_;
+    std::span<const MethodKeys> methods_;
+    ErrorList& errors_;
+    std::vector<TableSpec> tables_;
+};
+
+/// At most one byte more than a document may have.
+std::string read_text(const std::filesystem::path& path) {
+    std::error_code status;
+    if (!std::filesystem::exists(path, status))
+        throw InputError(fmt::format("{}: there is no such scenario file", path.string()));
+    std::ifstream file(path, std::ios::binary);
+    if (std::filesystem::is_directory(path, status) || !file)
+        throw InputError(fmt::format("{}: cannot be read as a scenario file", path.string()));
+    std::string text(largest_document + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad()) throw InputError(fmt::format("{}: reading stopped early", path.string()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    return text;
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& name,
+                        std::span<const std::string> overrides, std::span<const MethodKeys> methods) {
+    Node document = parse_document(text, name.string());
+    ErrorList errors(name.string());
+    apply_overrides(document, overrides, errors);
+    Scenario scenario = Reader(document, name, methods, errors).read();
+    errors.throw_if_any();
+    return scenario;
+}
+
+Scenario read_scenario(const std::filesystem::path& path, std::span<const std::string> overrides,
+                       std::span<const MethodKeys> methods) {
+    return parse_scenario(read_text(path), path, overrides, methods);
+}
+
+}  // namespace softgrain

@@ -1,0 +1,136 @@
+#include "common/io/scenario_schema.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "common/scenario.hpp"
+
+namespace softgrain::scenario_io {
+namespace {
+
+using enum KeyType;
+constexpr Range fraction{0.0, 1.0, true, true};
+
+template <std::size_t n>
+std::vector<std::string_view> words(const std::array<std::string_view, n>& names) {
+    return {names.begin(), names.end()};
+}
+
+const std::vector<KeySpec> top_keys{
+    {"title", text, Value(std::string()), "", "one line that names the scenario"},
+};
+
+const std::vector<KeySpec> random_keys{
+    {"seed", integer, Value(std::int64_t{1}), "", "seed of sizes, placement and inner structure",
+     not_negative},
+};
+
+const std::vector<KeySpec> material_keys{
+    {"youngs_modulus", number, Material{}.youngs_modulus, "N/m", "Young's modulus E of a grain", positive},
+    {"poisson_ratio", number, Material{}.poisson_ratio, "", "Poisson's ratio, plane strain", Range{0.0, 0.5}},
+    {"density", number, Material{}.density, "kg/m^2", "mass per area", positive},
+    {"friction", number, Material{}.friction, "", "Coulomb coefficient between grains", not_negative},
+};
+
+const std::vector<KeySpec> packing_keys{
+    {"path", text, Value(), "",
+     "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
+    {"size_law", text, Value(std::string(size_law_names[0])), "", "distribution of the grain radii",
+     any_number, words(size_law_names)},
+    {"count", integer, Value(std::int64_t{PackingSpec{}.count}), "", "number of grains", Range{1.0, 1e6}},
+    {"radius_mean", number, PackingSpec{}.radius_mean, "m",
+     "mean of gaussian before the cut; radius of single", positive},
+    {"radius_deviation", number, PackingSpec{}.radius_deviation, "m", "standard deviation of gaussian",
+     not_negative},
+    {"radius_min", number, PackingSpec{}.radius_min, "m", "smallest radius (all laws but single)", positive},
+    {"radius_max", number, PackingSpec{}.radius_max, "m", "largest radius (all laws but single)", positive},
+    {"fractal_dimension", number, PackingSpec{}.fractal_dimension, "", "D of fractal: N(>r) ~ r^-D",
+     positive},
+    {"packing_fraction", number, Value(), "",
+     "stop at this undeformed packing fraction; without it at the jamming point", fraction},
+};
+
+const std::vector<KeySpec> box_keys{
+    {"width", number, Value(), "m", "of the box; with a generated packing it sets aspect ratio and scale",
+     positive},
+    {"height", number, Value(), "m", "of the box", positive},
+};
+
+const std::vector<KeySpec> loading_keys{
+    {"kind", text, Value(std::string(loading_kind_names[0])), "",
+     "all walls (isotropic), one wall (oedometric) or none (hold)", any_number, words(loading_kind_names)},
+    {"wall", text, Value(), "", "moving wall, oedometric only", any_number, words(wall_names)},
+    {"until_strain", number, Value(), "", "end at this 1 - L/L0", fraction},
+    {"until_packing_fraction", number, Value(), "", "end at this covered area / box area", fraction},
+    {"until_packing_fraction_undeformed", number, Value(), "", "end at this undeformed grain area / box area",
+     positive},
+    {"until_stress", number, Value(), "N/m", "end at this mean wall stress", positive},
+    {"duration", number, Value(), "s", "length of a hold", positive},
+    {"strain_rate", number, Value(), "1/s", "d(1 - L/L0)/dt", positive},
+    {"inertial_number", number, Value(), "", "I = strain rate * d sqrt(rho / p), instead of strain_rate",
+     positive},
+};
+
+const std::vector<KeySpec> sampling_keys{
+    {"strain_interval", number, Sampling{}.strain_interval, "", "strain between two rows of the history",
+     Range{0.0, 1.0, true, false}},
+    {"average_window", number, Sampling{}.average_window, "",
+     "share of the interval before a sample over which wall forces are averaged", Range{0.0, 1.0}},
+    {"frame_every", integer, Value(std::int64_t{Sampling{}.frame_every}), "", "samples for one VTK frame",
+     Range{1.0, 1e9}},
+    {"outlines", boolean, Value(Sampling{}.outlines), "", "write grain outlines"},
+    {"contacts", boolean, Value(Sampling{}.contacts), "", "write contacts"},
+};
+
+const std::array<TableSpec, 7> tables{{
+    {"", "", top_keys},
+    {"random", "Random numbers.", random_keys},
+    {"material", "The grains' material, plane strain, per unit thickness.", material_keys},
+    {"packing", "The initial discs: a file (path) or a generator (all other keys).", packing_keys},
+    {"box", "The container.", box_keys},
+    {"loading", "A stage of the loading; the first `until_...` that is reached ends it.", loading_keys, true},
+    {"sampling", "What is written, and how often.", sampling_keys},
+}};
+
+}  // namespace
+
+std::span<const TableSpec> core_tables() {
+    return tables;
+}
+
+const TableSpec& core_table(std::string_view name) {
+    for (const TableSpec& table : tables)
+        if (table.name == name) return table;
+    throw std::logic_error(fmt::format("no scenario table '{}'", name));
+}
+
+std::string describe(const Range& range) {
+    std::string out;
+    if (std::isfinite(range.min)) out = fmt::format("{} {}", range.open_min ? ">" : ">=", range.min);
+    if (std::isfinite(range.max))
+        out += fmt::format("{}{} {}", out.empty() ? "" : " and ", range.open_max ? "<" : "<=", range.max);
+    return out;
+}
+
+std::string_view describe(KeyType type) {
+    switch (type) {
+        case boolean:
+            return "true or false";
+        case integer:
+            return "an integer";
+        case number:
+            return "a number";
+        case text:
+            break;
+    }
+    return "a text";
+}
+
+std::string join(std::span<const std::string_view> list) {
+    return fmt::format("{}", fmt::join(list, ", "));
+}
+
+}  // namespace softgrain::scenario_io

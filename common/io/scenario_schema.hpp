@@ -1,0 +1,35 @@
+#pragma once
+// The tables that every scenario has, whatever the method.
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/settings.hpp"
+
+namespace softgrain::scenario_io {
+
+inline constexpr std::array<std::string_view, 4> size_law_names{"gaussian", "fractal", "uniform_volume",
+                                                                "single"};
+inline constexpr std::array<std::string_view, 3> loading_kind_names{"isotropic", "oedometric", "hold"};
+
+struct TableSpec {
+    std::string_view name;  ///< "" for the keys before the first table
+    std::string_view help;
+    std::span<const KeySpec> keys;
+    bool repeated = false;  ///< an array of tables, [[name]]
+};
+
+/// In the order in which they are written.
+std::span<const TableSpec> core_tables();
+/// Throws std::logic_error if there is none.
+const TableSpec& core_table(std::string_view name);
+
+/// "> 0", ">= 0 and <= 0.5", or "" for any number.
+std::string describe(const Range& range);
+/// "a number", "an integer", "a text", "true or false".
+std::string_view describe(KeyType type);
+/// "gaussian, fractal, single".
+std::string join(std::span<const std::string_view> words);
+
+}  // namespace softgrain::scenario_io

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "common/io/scenario_file.hpp"
+#include "common/io/scenario_schema.hpp"
+
+namespace softgrain {
+namespace {
+
+using namespace scenario_io;
+
+std::string toml_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out += fmt::format("\\{}", c);
+        else if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
+            out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+            out += c;
+    }
+    return out + '"';
+}
+
+/// Shortest digits that read back to the same value; a number never looks like an integer.
+std::string as_toml(const Value& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return toml_text(*text);
+    if (const auto* boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
+    const std::string digits = fmt::format("{}", std::get<double>(value));
+    return digits.find_first_of(".en") == digits.npos ? digits + ".0" : digits;
+}
+
+std::string note(const KeySpec& key) {
+    std::string limits = key.choices.empty() ? describe(key.range) : join(key.choices);
+    if (!limits.empty()) limits = fmt::format("; {}", limits);
+    return fmt::format("{}{}{}", key.unit.empty() ? "" : fmt::format("[{}] ", key.unit), key.help, limits);
+}
+
+std::string written(const Settings& settings, std::span<const KeySpec> keys) {
+    std::string out;
+    for (const KeySpec& key : keys)
+        if (settings.has(key.name))
+            out += fmt::format("{} = {}  # {}\n", key.name, as_toml(settings.values().find(key.name)->second),
+                               note(key));
+        else
+            out += fmt::format("# {}: not given; {}\n", key.name, note(key));
+    return out;
+}
+
+void set_optional(Settings& settings, std::string_view key, const std::optional<double>& value) {
+    if (value) settings.set(key, *value);
+}
+
+Settings settings_of(const Material& m) {
+    Settings s;
+    s.set("youngs_modulus", m.youngs_modulus);
+    s.set("poisson_ratio", m.poisson_ratio);
+    s.set("density", m.density);
+    s.set("friction", m.friction);
+    return s;
+}
+
+Settings settings_of(const PackingSpec& p) {
+    Settings s;
+    if (p.path) {
+        s.set("path", p.path->string());
+        return s;
+    }
+    s.set("size_law", std::string(size_law_names[static_cast<std::size_t>(p.size_law)]));
+    s.set("count", std::int64_t{p.count});
+    s.set("radius_mean", p.radius_mean);
+    s.set("radius_deviation", p.radius_deviation);
+    s.set("radius_min", p.radius_min);
+    s.set("radius_max", p.radius_max);
+    s.set("fractal_dimension", p.fractal_dimension);
+    set_optional(s, "packing_fraction", p.packing_fraction);
+    return s;
+}
+
+Settings settings_of(const LoadingStage& stage) {
+    Settings s;
+    s.set("kind", std::string(loading_kind_names[static_cast<std::size_t>(stage.kind)]));
+    if (stage.kind == LoadingKind::oedometric)
+        s.set("wall", std::string(wall_names[static_cast<std::size_t>(stage.wall)]));
+    set_optional(s, "until_strain", stage.until_strain);
+    set_optional(s, "until_packing_fraction", stage.until_packing_fraction);
+    set_optional(s, "until_packing_fraction_undeformed", stage.until_packing_fraction_undeformed);
+    set_optional(s, "until_stress", stage.until_stress);
+    set_optional(s, "duration", stage.duration);
+    set_optional(s, "strain_rate", stage.strain_rate);
+    set_optional(s, "inertial_number", stage.inertial_number);
+    return s;
+}
+
+Settings settings_of(const Sampling& sampling) {
+    Settings s;
+    s.set("strain_interval", sampling.strain_interval);
+    s.set("average_window", sampling.average_window);
+    s.set("frame_every", std::int64_t{sampling.frame_every});
+    s.set("outlines", sampling.outlines);
+    s.set("contacts", sampling.contacts);
+    return s;
+}
+
+/// One entry for each time that the table is written.
+std::vector<Settings> contents(const Scenario& scenario, std::string_view table) {
+    Settings s;
+    if (table.empty()) s.set("title", scenario.title);
+    if (table == "random") s.set("seed", static_cast<std::int64_t>(scenario.seed));
+    if (table == "material") return {settings_of(scenario.material)};
+    if (table == "packing") return {settings_of(scenario.packing)};
+    if (table == "box") {
+        set_optional(s, "width", scenario.box.width);
+        set_optional(s, "height", scenario.box.height);
+    }
+    if (table == "sampling") return {settings_of(scenario.sampling)};
+    if (table == "loading") {
+        std::vector<Settings> stages;
+        for (const LoadingStage& stage : scenario.loading) stages.push_back(settings_of(stage));
+        return stages;
+    }
+    return {s};
+}
+
+std::string header(const TableSpec& table) {
+    if (table.name.empty()) return {};
+    return table.repeated ? fmt::format("[[{}]]", table.name) : fmt::format("[{}]", table.name);
+}
+
+std::string_view type_name(KeyType type) {
+    switch (type) {
+        case KeyType::boolean:
+            return "boolean";
+        case KeyType::integer:
+            return "integer";
+        case KeyType::number:
+            return "number";
+        case KeyType::text:
+            break;
+    }
+    return "text";
+}
+
+std::string described(std::span<const KeySpec> keys) {
+    std::string out;
+    for (const KeySpec& key : keys) {
+        const bool optional = std::holds_alternative<std::monostate>(key.default_value);
+        out += fmt::format("  {:<34} {:<8} {:<12} {}\n", key.name, type_name(key.type),
+                           optional ? "-" : as_toml(key.default_value), note(key));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string write_scenario(const Scenario& scenario, std::span<const MethodKeys> methods) {
+    std::string out;
+    for (const TableSpec& table : core_tables())
+        for (const Settings& settings : contents(scenario, table.name)) {
+            if (!table.name.empty()) out += fmt::format("\n# {}\n{}\n", table.help, header(table));
+            out += written(settings, table.keys);
+        }
+    for (const MethodKeys& method : methods) {
+        const auto it = scenario.method_settings.find(method.name);
+        out += fmt::format("\n[{}]\n", method.name);
+        out +=
+            written(it == scenario.method_settings.end() ? Settings(method.keys) : it->second, method.keys);
+    }
+    return out;
+}
+
+std::string describe_keys(std::span<const MethodKeys> methods) {
+    std::string out =
+        fmt::format("  {:<34} {:<8} {:<12} {}\n", "key", "type", "default", "[unit] meaning; allowed");
+    for (const TableSpec& table : core_tables())
+        out += (table.name.empty() ? "" : fmt::format("\n{}  {}\n", header(table), table.help)) +
+               described(table.keys);
+    for (const MethodKeys& method : methods)
+        out += fmt::format("\n[{}]  Settings of this method only.\n{}", method.name, described(method.keys));
+    return out;
+}
+
+}  // namespace softgrain

@@ -1,0 +1,160 @@
+#include "common/packing/jam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "common/errors.hpp"
+#include "common/packing/overlap_energy.hpp"
+
+namespace softgrain {
+namespace {
+
+// Lengths are in mean radii.
+constexpr double first_fraction = 0.5;    // random placement; far below jamming
+constexpr double compression = 0.004;     // of the box size, in one step
+constexpr double free_overlap = 1e-6;     // below it discs count as free while they are compressed
+constexpr double coarse_balance = 1e-3;   // net force / mean overlap of discs that carry each other
+constexpr double fine_balance = 1e-4;     //
+constexpr double weakest_contact = 1e-3;  // overlap / mean overlap of a contact that carries
+constexpr double no_limit = 2.0;          // a packing fraction that no discs reach
+constexpr int most_steps = 50'000;        // of one relaxation
+constexpr int most_refinements = 100;
+
+double area_of(const std::vector<double>& radii) {
+    double area = 0.0;
+    for (const double r : radii) area += std::numbers::pi * r * r;
+    return area;
+}
+
+double fraction_of(const OverlapEnergy& discs) {
+    return area_of(discs.radius()) / (discs.width() * discs.height());
+}
+
+void open_to(OverlapEnergy& discs, double fraction) {
+    discs.scale(std::sqrt(fraction_of(discs) / fraction));
+}
+
+/// Discs at random between the walls; they may overlap.
+OverlapEnergy placed_at_random(const std::vector<double>& radii, double aspect, double fraction,
+                               Random& random) {
+    const double width = std::sqrt(area_of(radii) / (fraction * aspect));
+    const double height = aspect * width;
+    const auto coordinate = [&](double r, double length) {
+        return 2.0 * r < length ? random.between(r, length - r) : 0.5 * length;
+    };
+    std::vector<Vec2> center;
+    for (const double r : radii) {
+        const double x = coordinate(r, width);
+        center.emplace_back(x, coordinate(r, height));
+    }
+    return {radii, std::move(center), width, height};
+}
+
+/// Compresses free discs until they reach `fraction`; false if they jam before.
+bool compress(OverlapEnergy& discs, double fraction) {
+    for (;;) {
+        const double still_free =
+            fraction_of(discs) < fraction ? free_overlap : 1e-3 * free_overlap * discs.smallest_radius();
+        if (discs.relax(coarse_balance, still_free, most_steps).largest_overlap > still_free) return false;
+        const double left = std::sqrt(fraction_of(discs) / fraction);
+        if (left >= 1.0) return true;
+        discs.scale(std::max(1.0 - compression, left));
+    }
+}
+
+/// From jammed discs to the point where their overlaps vanish. A jammed state tells how far that is: U is
+/// quadratic in the distance, so ln(size at jamming / size) = 2 U / virial.
+OverlapEnergy::State close_in(OverlapEnergy& discs) {
+    constexpr double still_free = 0.02 * jamming_tolerance;
+    double change = compression;
+    bool was_free = false;
+    for (int k = 0; k < most_refinements; ++k) {
+        const auto state = discs.relax(fine_balance, still_free, most_steps);
+        const bool is_free = state.largest_overlap <= still_free;
+        if (!is_free && state.largest_overlap < jamming_tolerance) return state;
+        if (!is_free)
+            change = 0.9 * 2.0 * state.energy / state.virial;
+        else
+            change = was_free ? 2.0 * change : -0.5 * std::abs(change);  // opened too far: go back
+        was_free = is_free;
+        discs.scale(1.0 + change);
+    }
+    throw InputError("packing: the grains did not come to rest at their jamming point, change random.seed");
+}
+
+/// Removes grains that cannot be held (fewer than 3 contacts) until all are.
+void count_contacts(const std::vector<Pair>& contacts, JammedPacking& result) {
+    const std::size_t n = result.packing.size();
+    std::vector<bool> held(n, true);
+    const auto alive = [&](const Pair& c) {
+        return held[static_cast<std::size_t>(c.i)] && (c.j < 0 || held[static_cast<std::size_t>(c.j)]);
+    };
+    for (bool changed = true; changed;) {
+        std::vector<int> count(n, 0);
+        for (const Pair& c : contacts) {
+            if (!alive(c)) continue;
+            ++count[static_cast<std::size_t>(c.i)];
+            if (c.j >= 0) ++count[static_cast<std::size_t>(c.j)];
+        }
+        changed = false;
+        for (std::size_t i = 0; i < n; ++i)
+            if (held[i] && count[i] < 3) {
+                held[i] = false;
+                changed = true;
+            }
+    }
+    const auto remaining = static_cast<int>(std::count(held.begin(), held.end(), true));
+    const auto between_grains =
+        std::count_if(contacts.begin(), contacts.end(), [&](const Pair& c) { return alive(c) && c.j >= 0; });
+    result.rattlers = static_cast<int>(n) - remaining;
+    result.contacts = static_cast<int>(std::count_if(contacts.begin(), contacts.end(), alive));
+    if (remaining > 0) result.coordination_number = 2.0 * static_cast<double>(between_grains) / remaining;
+}
+
+Packing in_units_of(double length, const OverlapEnergy& discs, const std::vector<double>& radii) {
+    Packing packing;
+    packing.box = Box{{0.0, length * discs.width(), 0.0, length * discs.height()}};
+    packing.center = discs.center();
+    for (Vec2& c : packing.center) c *= length;
+    packing.radius = radii;
+    return packing;
+}
+
+}  // namespace
+
+JammedPacking jam(const std::vector<double>& radii, double aspect_ratio, Random& random,
+                  std::optional<double> packing_fraction) {
+    const double mean = std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+    std::vector<double> in_means = radii;
+    for (double& r : in_means) r /= mean;
+
+    const double limit = packing_fraction.value_or(no_limit);
+    OverlapEnergy discs = placed_at_random(in_means, aspect_ratio, std::min(first_fraction, limit), random);
+    // A little beyond the limit, so that opening the box to it leaves no overlap.
+    std::vector<Pair> contacts;
+    if (!compress(discs, limit * (1.0 + free_overlap))) {
+        const auto state = close_in(discs);
+        contacts = discs.contacts(weakest_contact * state.mean_overlap);
+        discs.scale(1.0 + discs.opening());
+        const double jammed_at = fraction_of(discs);
+        if (packing_fraction && jammed_at < *packing_fraction)
+            throw InputError(
+                fmt::format("packing.packing_fraction {} cannot be reached: these grains jam at {:.4f}; "
+                            "lower it or leave it out",
+                            *packing_fraction, jammed_at));
+        if (packing_fraction) contacts.clear();
+    }
+    if (packing_fraction) open_to(discs, *packing_fraction);
+
+    JammedPacking result;
+    result.packing = in_units_of(mean, discs, radii);
+    result.packing_fraction = result.packing.packing_fraction_undeformed();
+    count_contacts(contacts, result);
+    return result;
+}
+
+}  // namespace softgrain

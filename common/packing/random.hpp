@@ -1,0 +1,22 @@
+#pragma once
+// Random numbers that are the same with every standard library.
+#include <cstdint>
+#include <random>
+
+namespace softgrain {
+
+/// mt19937_64 is fixed by the standard; the distributions of <random> are not, so they are not used.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+    /// Uniform in [0, 1), 53 bits.
+    double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+    /// Uniform in [low, high).
+    double between(double low, double high) { return low + (high - low) * unit(); }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+}  // namespace softgrain
