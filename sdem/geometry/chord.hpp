@@ -1,0 +1,204 @@
+#pragma once
+// Exact contact of two ellipses: the chord between the two points where their outlines cross.
+//
+// The larger grain becomes the unit circle: with B = A_i^-1 A_j and d = A_i^-1 (c_j - c_i), a point u of j's
+// unit circle lies on i where g(u) = |d + B u|^2 - 1 = 0. All steps turn u by (u + s t)/sqrt(1 + s^2), so no
+// trigonometric function is called.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "sdem/geometry/cap.hpp"
+#include "sdem/geometry/ellipse.hpp"
+
+namespace softgrain::sdem {
+
+enum class Overlap : std::uint8_t {
+    none,
+    chord,        ///< two intersections
+    four_points,  ///< four intersections; the chord is that of the deepest pocket
+    contained,    ///< one ellipse lies inside the other: no chord
+    coincident,   ///< the centres coincide: no normal
+};
+
+/// Contact of grains i and j. Depths and areas are >= 0; only `overlap` is set if there is no chord.
+struct Chord {
+    Overlap overlap = Overlap::none;
+    Vec2 point = Vec2::Zero();            ///< mid-point of the chord [m]
+    Vec2 normal = Vec2::Zero();           ///< unit, out of i
+    double length = 0.0;                  ///< L_c [m]
+    double depth_i = 0.0, depth_j = 0.0;  ///< largest distance of each outline beyond the chord [m]
+    double cap_i = 0.0, cap_j = 0.0;      ///< area of each ellipse beyond the chord [m^2]
+    double tan_i = 0.0,
+           tan_j = 0.0;  ///< tan(psi/2), psi the half opening angle of each cap in its unit frame
+
+    bool touching() const { return overlap == Overlap::chord || overlap == Overlap::four_points; }
+};
+
+namespace detail {
+
+struct Unit {
+    double x, y;
+    /// Turned by atan(s), |s| < 1.
+    Unit turned(double s) const {
+        const double scale = 1.0 / std::sqrt(1.0 + s * s);
+        return {scale * (x - s * y), scale * (y + s * x)};
+    }
+};
+inline double cross(Unit a, Unit b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// j's outline seen from the unit circle of i.
+struct Level {
+    double dx, dy, xx, xy, yx, yy;  // d and B
+    double bx, by, mxx, mxy, myy;   // B^T d and B^T B
+
+    Level(const Ellipse& i, const Ellipse& j) {
+        const double ex = j.center.x() - i.center.x(), ey = j.center.y() - i.center.y();
+        const Mat2& p = i.inverse;
+        const Mat2& a = j.axes;
+        dx = p(0, 0) * ex + p(0, 1) * ey;
+        dy = p(1, 0) * ex + p(1, 1) * ey;
+        xx = p(0, 0) * a(0, 0) + p(0, 1) * a(1, 0);
+        xy = p(0, 0) * a(0, 1) + p(0, 1) * a(1, 1);
+        yx = p(1, 0) * a(0, 0) + p(1, 1) * a(1, 0);
+        yy = p(1, 0) * a(0, 1) + p(1, 1) * a(1, 1);
+        bx = xx * dx + yx * dy;
+        by = xy * dx + yy * dy;
+        mxx = xx * xx + yx * yx;
+        mxy = xx * xy + yx * yy;
+        myy = xy * xy + yy * yy;
+    }
+    double value(Unit u) const {
+        const double wx = dx + xx * u.x + xy * u.y, wy = dy + yx * u.x + yy * u.y;
+        return wx * wx + wy * wy - 1.0;
+    }
+    /// g' / 2 along the circle.
+    double slope(Unit u) const {
+        return by * u.x - bx * u.y + mxy * (u.x * u.x - u.y * u.y) + (myy - mxx) * u.x * u.y;
+    }
+    /// g'' / 2 along the circle.
+    double curvature(Unit u) const {
+        const double radial = mxx * u.x * u.x + 2.0 * mxy * u.x * u.y + myy * u.y * u.y;
+        return mxx + myy - 2.0 * radial - bx * u.x - by * u.y;
+    }
+    /// True if g has one minimum and one maximum: |B^T d| beyond the spread of the eigenvalues of B^T B.
+    bool has_one_minimum() const {
+        const double difference = mxx - myy;
+        return bx * bx + by * by > difference * difference + 4.0 * mxy * mxy;
+    }
+};
+
+/// Newton on g' from u; false if it did not settle.
+inline bool find_deepest(const Level& g, Unit& u) {
+    constexpr double settled = 1e-4;  // the next error is its square
+    for (int k = 0; k < 30; ++k) {
+        const double slope = g.slope(u), curvature = g.curvature(u);
+        const double step =
+            curvature > 0.0 ? std::clamp(-slope / curvature, -0.5, 0.5) : std::copysign(0.5, -slope);
+        u = u.turned(step);
+        if (std::abs(step) < settled) return true;
+    }
+    return false;
+}
+
+/// Newton on g from a first guess at half opening angle asin(limit/0.5). Steps are clamped: without that,
+/// tiny overlaps swap the two roots.
+inline bool find_root(const Level& g, Unit& u, double limit) {
+    const double settled = 2e-6 * limit + 1e-15 / limit;
+    for (int k = 0; k < 20; ++k) {
+        const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
+        const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;
+        const double value = wx * wx + wy * wy - 1.0;
+        const double step = std::clamp(-0.5 * value / (wx * tx + wy * ty), -limit, limit);
+        u = u.turned(step);
+        if (k >= 1 && std::abs(step) <= settled) return true;
+    }
+    return false;
+}
+
+/// Everything about the contact from its end points a, b on j's unit circle, counter-clockwise over the cap.
+Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap);
+
+/// Scan and bisection: any number of intersections, any strain. Slow.
+Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, Vec2& deepest);
+
+inline Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap) {
+    Chord c;
+    const double tx = b.x - a.x, ty = b.y - a.y;  // chord in j's unit frame
+    const double mx = 0.5 * (a.x + b.x), my = 0.5 * (a.y + b.y);
+    const double two_h_j = std::sqrt(tx * tx + ty * ty);
+    const double sx = g.xx * tx + g.xy * ty, sy = g.yx * tx + g.yy * ty;  // chord in i's
+    const double px = g.dx + g.xx * mx + g.xy * my, py = g.dy + g.yx * mx + g.yy * my;
+    const double two_h_i = std::sqrt(sx * sx + sy * sy);
+    const Mat2& A = j.axes;
+    const double cx = A(0, 0) * tx + A(0, 1) * ty, cy = A(1, 0) * tx + A(1, 1) * ty;
+    c.length = std::sqrt(cx * cx + cy * cy);
+    if (!(two_h_j > 0.0) || !(two_h_i > 0.0) || !(c.length > 0.0)) return Chord{};
+    c.overlap = overlap;
+    const double nx = -cy / c.length, ny = cx / c.length;
+    c.normal = Vec2{nx, ny};
+    c.point = Vec2{j.center.x() + A(0, 0) * mx + A(0, 1) * my, j.center.y() + A(1, 0) * mx + A(1, 1) * my};
+    // cos psi = signed distance of the chord from each unit circle's centre.
+    const double cos_j = (ty * mx - tx * my) / two_h_j;
+    const double cos_i = (sx * py - sy * px) / two_h_i;
+    const double h_j = 0.5 * two_h_j, h_i = 0.5 * two_h_i;
+    c.tan_j = h_j / (1.0 + cos_j);
+    c.tan_i = h_i / (1.0 + cos_i);
+    const auto support = [&](const Mat2& axes) {
+        const double x = axes(0, 0) * nx + axes(1, 0) * ny, y = axes(0, 1) * nx + axes(1, 1) * ny;
+        return std::sqrt(x * x + y * y);
+    };
+    c.depth_j = support(j.axes) * h_j * c.tan_j;
+    c.depth_i = support(i.axes) * h_i * c.tan_i;
+    c.cap_j = j.det * unit_cap_area(c.tan_j);
+    c.cap_i = i.det * unit_cap_area(c.tan_i);
+    return c;
+}
+
+/// True if the centre of i is inside j and i is not larger than j: with no crossing, i is inside j.
+inline bool inside(const Ellipse& i, const Ellipse& j) {
+    return i.det <= j.det && (j.inverse * (i.center - j.center)).squaredNorm() < 1.0;
+}
+
+/// i is the unit circle.
+inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
+    const Level g(i, j);
+    if (!g.has_one_minimum()) return general_chord(g, i, j, deepest);
+    Unit u{deepest.x(), deepest.y()};
+    if (u.x == 0.0 && u.y == 0.0) {
+        const double scale = -1.0 / std::sqrt(g.bx * g.bx + g.by * g.by);
+        u = {scale * g.bx, scale * g.by};
+    }
+    if (!find_deepest(g, u)) return general_chord(g, i, j, deepest);
+    deepest = Vec2{u.x, u.y};
+    const double lowest = g.value(u);
+    if (lowest >= 0.0) return inside(i, j) ? Chord{Overlap::contained} : Chord{};
+
+    // g ~ g_min + g'' (1 - cos psi) near its minimum gives the first guess of both roots.
+    const double versine = std::min(-0.5 * lowest / g.curvature(u), 1.9);
+    const double cos0 = 1.0 - versine, sin0 = std::sqrt(versine * (2.0 - versine));
+    Unit a{u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
+    Unit b{u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
+    const bool found = find_root(g, a, 0.5 * sin0) && find_root(g, b, 0.5 * sin0);
+    if (!found || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0)) return general_chord(g, i, j, deepest);
+    return finish(g, i, j, a, b, Overlap::chord);
+}
+
+}  // namespace detail
+
+/// Contact of i and j. `deepest` keeps the direction found (in the unit frame of the smaller grain) for the
+/// next call; zero asks for a cold start. Never NaN, never endless.
+inline Chord chord_of(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
+    if (i.radius >= j.radius) return detail::chord_from_circle(i, j, deepest);
+    Chord c = detail::chord_from_circle(j, i, deepest);
+    if (!c.touching()) return c;
+    c.normal = -c.normal;
+    std::swap(c.depth_i, c.depth_j);
+    std::swap(c.cap_i, c.cap_j);
+    std::swap(c.tan_i, c.tan_j);
+    return c;
+}
+
+}  // namespace softgrain::sdem

@@ -1,0 +1,340 @@
+// One step of SDEM. Equation numbers: Mollon 2022 (see README.md for where they are corrected).
+#include "sdem/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/errors.hpp"
+
+namespace softgrain::sdem {
+namespace {
+
+constexpr std::size_t threads_pay_off = 400;  // grains
+constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+constexpr double smallest_det = 0.05;
+
+double contraction(const Mat2& a, const Mat2& b) {
+    return a.cwiseProduct(b).sum();
+}
+
+/// sum S / (pi R^2) with overlapping caps not counted: once caps cover more than the whole outline, sums of
+/// caps grow faster than the area they are to give back and Eq. 68 has no solution. Caps scale as psi^3.
+double cap_fraction(const GrainForces& sum, double reference_area) {
+    const double covered = std::max(1.0, sum.covered);
+    return sum.caps / (reference_area * covered * covered * covered);
+}
+
+}  // namespace
+
+SoftDiscSolver::SoftDiscSolver(const Material& material, const Packing& packing, const Mollon2022& law,
+                               const Options& options)
+    : options_(options), density_(material.density), law_(law), box_(packing.box) {
+    for (std::size_t g = 0; g < packing.size(); ++g) {
+        const double R = packing.radius[g];
+        const double area = std::numbers::pi * R * R;
+        grains_.radius.push_back(R);
+        grains_.reference_area.push_back(area);
+        grains_.mass.push_back(density_ * area);
+        grains_.inertia.push_back(0.25 * density_ * area * R * R);
+        grains_.position.push_back(packing.center[g]);
+        grains_.velocity.emplace_back(Vec2::Zero());
+        grains_.F.push_back(Mat2::Identity());
+        grains_.F_rate.push_back(Mat2::Zero());
+    }
+    shape_.resize(size());
+    reach_.resize(size());
+    forces_.resize(size());
+    wall_contact_.resize(4 * size());
+    wall_mask_.assign(size(), 0);
+    stored_.assign(size(), 0.0);
+    damped_.assign(size(), 0.0);
+    before_ = grains_.position;
+    update_shapes(before_);
+    rebuild_neighbors();
+    evaluate_forces();
+}
+
+/// Calls the function with the Motion chosen by the options.
+template <class Function>
+decltype(auto) SoftDiscSolver::with_motion(Function&& function) const {
+    const bool keep = options_.incompressible;
+    switch (options_.kinematics) {
+        case Kinematics::D2F0:
+            return function(Motion<Kinematics::D2F0, false>{});
+        case Kinematics::D2F1:
+            return keep ? function(Motion<Kinematics::D2F1, true>{})
+                        : function(Motion<Kinematics::D2F1, false>{});
+        default:
+            return keep ? function(Motion<Kinematics::D2F3, true>{})
+                        : function(Motion<Kinematics::D2F3, false>{});
+    }
+}
+
+void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
+    std::array<double, 4> mean_velocity;
+    for (std::size_t w = 0; w < 4; ++w) mean_velocity[w] = 0.5 * (wall_velocity_[w] + walls.velocity[w]);
+    add_wall_work(ledger_, mean_velocity, dt);
+    wall_velocity_ = walls.velocity;
+
+    with_motion([&](auto motion) { move<decltype(motion)>(dt); });
+    time_ += dt;
+    last_step_ = dt;
+    box_ = walls.after(dt);
+
+    update_shapes(before_);
+    update_neighbors();
+    evaluate_forces();
+}
+
+template <class MotionPolicy>
+SoftDiscSolver::Kick SoftDiscSolver::kick(std::size_t g, double dt) const {
+    const Grains& s = grains_;
+    const GrainForces& sum = forces_[g];
+    Kick k;
+    k.velocity = s.velocity[g] + (dt / s.mass[g]) * sum.force;  // Eq. 58
+    const Mat2 free_rate = s.F_rate[g] + (dt / s.inertia[g]) * sum.moment;
+    k.F_rate = MotionPolicy::allowed(s.F[g], free_rate);
+    // Work at the mean of the velocities before and after equals the change of kinetic energy to rounding.
+    const Vec2 v = 0.5 * (s.velocity[g] + k.velocity);
+    const Mat2 L = 0.5 * (s.F_rate[g] + k.F_rate);
+    k.damped = -dt * (sum.damping_force.dot(v) + contraction(sum.damping_moment, L));
+    k.stored = -dt * (sum.force.dot(v) + contraction(sum.moment, L)) - k.damped;
+    if constexpr (!std::is_same_v<MotionPolicy, Motion<Kinematics::D2F3, false>>)
+        k.stored -= s.inertia[g] * contraction(k.F_rate - free_rate, L);  // the constraint's reaction
+    return k;
+}
+
+template <class MotionPolicy>
+void SoftDiscSolver::move(double dt) {
+    Grains& s = grains_;
+#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+    for (std::size_t g = 0; g < size(); ++g) {
+        const Kick k = kick<MotionPolicy>(g, dt);
+        stored_[g] = k.stored;
+        damped_[g] = k.damped;
+        s.velocity[g] = k.velocity;
+        s.F_rate[g] = k.F_rate;
+        before_[g] = s.position[g];
+        s.position[g] += dt * k.velocity;  // Eq. 59
+        s.F[g] =
+            MotionPolicy::corrected(s.F[g] + dt * k.F_rate, cap_fraction(forces_[g], s.reference_area[g]));
+    }
+    for (std::size_t g = 0; g < size(); ++g) {
+        ledger_.elastic += stored_[g];
+        ledger_.damping += damped_[g];
+    }
+}
+
+void SoftDiscSolver::update_shapes(std::span<const Vec2> before) {
+    const Grains& s = grains_;
+    std::size_t bad = nobody;
+#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+    for (std::size_t g = 0; g < size(); ++g) {
+        shape_[g] = make_ellipse(s.position[g], s.F[g], s.radius[g]);
+        reach_[g] = shape_[g].bounding;
+        const double longest = 0.5 * s.radius[g];
+        const bool near = (s.position[g] - before[g]).squaredNorm() <= longest * longest;
+        const bool sound = shape_[g].det > smallest_det * s.radius[g] * s.radius[g] &&
+                           reach_[g] < std::numeric_limits<double>::infinity();
+        if (!near || !sound) bad = std::min(bad, g);
+    }
+    if (bad == nobody) return;
+    const int g = static_cast<int>(bad);
+    const Vec2 step = s.position[bad] - before[bad];
+    if (!(step.norm() <= 0.5 * s.radius[bad]))
+        throw DivergedError(g, "position", time_,
+                            fmt::format("moved {:.3g} radii in one step; use a smaller sdem.safety",
+                                        step.norm() / s.radius[bad]));
+    throw DivergedError(g, "det F", time_,
+                        fmt::format("{:.3g}: the grain is crushed or inside out", s.F[bad].determinant()));
+}
+
+void SoftDiscSolver::update_neighbors() {
+    if (neighbors_.stale(grains_.position, reach_)) rebuild_neighbors();
+}
+
+/// Warm starts move with their pairs.
+void SoftDiscSolver::rebuild_neighbors() {
+    const std::vector<Pair> old_pairs(neighbors_.pairs().begin(), neighbors_.pairs().end());
+    const std::vector<Vec2> old_deepest = std::move(deepest_);
+    double mean_radius = 0.0;
+    for (double R : grains_.radius) mean_radius += R / static_cast<double>(size());
+    neighbors_.build(grains_.position, reach_, options_.skin * mean_radius);
+    pairs_of_.build(neighbors_.pairs(), size());
+    deepest_.assign(neighbors_.pairs().size(), Vec2::Zero());
+    std::size_t o = 0;
+    for (std::size_t k = 0; k < deepest_.size(); ++k) {
+        const Pair& pair = neighbors_.pairs()[k];
+        while (o < old_pairs.size() && old_pairs[o] < pair) ++o;
+        if (o < old_pairs.size() && old_pairs[o] == pair) deepest_[k] = old_deepest[o];
+    }
+    pair_contact_.resize(deepest_.size());
+}
+
+void SoftDiscSolver::evaluate_forces() {
+    const Grains& s = grains_;
+    deepest_before_ = deepest_;
+    const std::span<const Pair> pairs = neighbors_.pairs();
+    const auto moving = [&](std::size_t g) {
+        return Moving{shape_[g], s.velocity[g], s.F_rate[g], s.mass[g]};
+    };
+
+    std::size_t bad_pair = nobody;
+#pragma omp parallel for schedule(static) reduction(min : bad_pair) if (size() >= threads_pay_off)
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto i = static_cast<std::size_t>(pairs[k].i), j = static_cast<std::size_t>(pairs[k].j);
+        const double reach = reach_[i] + reach_[j];
+        if ((s.position[j] - s.position[i]).squaredNorm() >= reach * reach) {
+            pair_contact_[k].overlap = Overlap::none;
+            deepest_[k].setZero();
+            continue;
+        }
+        pair_contact_[k] = pair_contact(moving(i), moving(j), law_, deepest_[k]);
+        const PairContact& c = pair_contact_[k];
+        const bool sound = c.overlap == Overlap::none || (c.touching() && c.force.stiffness > 0.0);
+        if (!sound) bad_pair = std::min(bad_pair, k);
+    }
+    if (bad_pair != nobody) throw_bad_contact(bad_pair);
+
+    std::size_t bad = nobody;
+#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+    for (std::size_t g = 0; g < size(); ++g) {
+        GrainForces sum{Vec2::Zero(), Mat2::Zero(), Vec2::Zero(), Mat2::Zero(), 0.0, 0.0};
+        wall_mask_[g] = 0;
+        for (int w = 0; w < 4; ++w) {
+            const double distance = box_.distance(w, s.position[g]);
+            if (distance >= reach_[g]) continue;
+            const WallChord chord = wall_chord(shape_[g], wall_normal(w), distance);
+            if (!chord.touching) continue;
+            const auto wall = static_cast<std::size_t>(w);
+            WallContact& c = wall_contact_[4 * g + wall];
+            const Vec2 wall_velocity =
+                wall_axis(w) == 0 ? Vec2{wall_velocity_[wall], 0.0} : Vec2{0.0, wall_velocity_[wall]};
+            c = wall_contact(moving(g), chord, wall_normal(w), wall_velocity, law_);
+            wall_mask_[g] = static_cast<std::uint8_t>(wall_mask_[g] | (1U << wall));
+            add_contact(sum, c.force, wall_normal(w), c.grain, options_.incompressible);
+            if (chord.escaped || !(c.force.stiffness > 0.0)) bad = std::min(bad, g);
+        }
+        for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
+            const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
+            if (c.overlap == Overlap::none) continue;
+            if (entry.second)
+                add_contact(sum, c.force, c.normal, c.j, options_.incompressible);
+            else
+                add_contact(sum, c.force, -c.normal, c.i, options_.incompressible);
+        }
+        const double R = s.radius[g];
+        const double eps_v = shape_[g].det / (R * R) - sum.caps / s.reference_area[g] - 1.0;  // Eq. 41
+        sum.moment -= s.reference_area[g] * law_.piola(s.F[g], Polar(s.F[g]), eps_v);         // Eq. 42, 43
+        // Eq. 62-64 without the spin, which they leave alone.
+        const double rate = options_.shape_damping * std::sqrt(law_.E / density_) / R;
+        const Mat2 shape_damping = (-rate * s.inertia[g]) * without_spin(s.F[g], s.F_rate[g]);
+        sum.moment += shape_damping;
+        sum.damping_moment += shape_damping;
+        forces_[g] = sum;
+    }
+    if (bad != nobody)
+        throw DivergedError(static_cast<int>(bad), "wall contact", time_,
+                            "the grain went through a wall, or its cap is too deep for Eq. 57");
+    sum_wall_forces();
+}
+
+void SoftDiscSolver::sum_wall_forces() {
+    wall_force_.fill(Vec2::Zero());
+    wall_damping_force_.fill(Vec2::Zero());
+    for (std::size_t g = 0; g < size(); ++g) {
+        if (wall_mask_[g] == 0) continue;
+        for (std::size_t w = 0; w < 4; ++w) {
+            if ((wall_mask_[g] >> w & 1U) == 0) continue;
+            const Vec2 outward = -wall_normal(static_cast<int>(w));
+            wall_force_[w] += wall_contact_[4 * g + w].force.total * outward;
+            wall_damping_force_[w] += wall_contact_[4 * g + w].force.damping * outward;
+        }
+    }
+}
+
+void SoftDiscSolver::throw_bad_contact(std::size_t k) const {
+    const Pair& pair = neighbors_.pairs()[k];
+    const auto why = [&]() -> const char* {
+        switch (pair_contact_[k].overlap) {
+            case Overlap::contained:
+                return "one grain lies inside the other";
+            case Overlap::coincident:
+                return "the two centres coincide";
+            default:
+                return "the caps are too deep for Eq. 57";
+        }
+    };
+    throw DivergedError(pair.i, "contact", time_, fmt::format("with grain {}: {}", pair.j, why()));
+}
+
+/// Force times wall displacement; the walls' share of damping goes to `damping`, the rest is stored.
+void SoftDiscSolver::add_wall_work(EnergyLedger& ledger, const std::array<double, 4>& wall_velocity,
+                                   double dt) const {
+    for (std::size_t w = 0; w < 4; ++w) {
+        const int axis = wall_axis(static_cast<int>(w));
+        const double work = -wall_force_[w][axis] * wall_velocity[w] * dt;
+        const double damped = -wall_damping_force_[w][axis] * wall_velocity[w] * dt;
+        ledger.external_work += work;
+        ledger.damping += damped;
+        ledger.elastic += work - damped;
+    }
+}
+
+/// The ledger at the present positions: half a step further than the velocities kept.
+template <class MotionPolicy>
+EnergyLedger SoftDiscSolver::energy_now() const {
+    EnergyLedger ledger = ledger_;
+    const double half = 0.5 * last_step_;
+    add_wall_work(ledger, wall_velocity_, half);
+    for (std::size_t g = 0; g < size(); ++g) {
+        const Kick k = kick<MotionPolicy>(g, half);
+        ledger.elastic += k.stored;
+        ledger.damping += k.damped;
+        ledger.kinetic +=
+            0.5 * (grains_.mass[g] * k.velocity.squaredNorm() + grains_.inertia[g] * k.F_rate.squaredNorm());
+    }
+    return ledger;
+}
+
+EnergyLedger SoftDiscSolver::energy() const {
+    return with_motion([&](auto motion) { return energy_now<decltype(motion)>(); });
+}
+
+/// omega^2 = max over grains of 2 f sum(k_sep)/m + 8 max(kappa, mu)/(rho R^2), and the same sum for damping
+/// C: dt = (-C + sqrt(C^2 + 4 omega^2)) / omega^2. Every grain counts at least one contact that just closed.
+double SoftDiscSolver::stable_time_step() const {
+    const bool rigid = options_.kinematics == Kinematics::D2F0;
+    const double f = rigid || options_.incompressible ? 1.0 : 2.0;
+    const double bulk = rigid ? 0.0 : std::max(law_.kappa, law_.mu);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t g = 0; g < size(); ++g) {
+        const double m = grains_.mass[g], R = grains_.radius[g];
+        double stiffness = 0.0, viscosity = 0.0;
+        const auto add = [&](double k_n, double reduced_mass, double share) {
+            stiffness += share * k_n;
+            viscosity += share * law_.damping * std::sqrt(k_n * reduced_mass);
+        };
+        for (std::size_t w = 0; w < 4; ++w)
+            if ((wall_mask_[g] >> w & 1U) != 0) add(wall_contact_[4 * g + w].force.stiffness, m, 1.0);
+        for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
+            const auto k = static_cast<std::size_t>(entry.pair);
+            if (pair_contact_[k].overlap == Overlap::none) continue;
+            const Pair& pair = neighbors_.pairs()[k];
+            const double m_i = grains_.mass[static_cast<std::size_t>(pair.i)];
+            const double m_j = grains_.mass[static_cast<std::size_t>(pair.j)];
+            add(pair_contact_[k].force.stiffness, m_i * m_j / (m_i + m_j), 0.5);
+        }
+        if (stiffness == 0.0) add(law_.first_stiffness(), m, 1.0);
+        const double omega2 = 2.0 * f * stiffness / m + 8.0 * bulk / (density_ * R * R);
+        const double C = 2.0 * f * viscosity / m + options_.shape_damping * std::sqrt(law_.E / density_) / R;
+        smallest = std::min(smallest, (std::sqrt(C * C + 4.0 * omega2) - C) / omega2);
+    }
+    return options_.safety * smallest;
+}
+
+}  // namespace softgrain::sdem
