@@ -1,0 +1,159 @@
+#include "viz/render/plot_chart.hpp"
+
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkDoubleArray.h>
+#include <vtkPen.h>
+#include <vtkPlotArea.h>
+#include <vtkPlotLine.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "viz/render/page.hpp"
+#include "viz/render/plot_data.hpp"
+
+namespace softgrain {
+namespace {
+
+/// Okabe & Ito (2008), distinct for every colour vision.
+constexpr std::array<Colour, 7> palette{{{0, 114, 178, 255},
+                                         {213, 94, 0, 255},
+                                         {0, 158, 115, 255},
+                                         {204, 121, 167, 255},
+                                         {0, 0, 0, 255},
+                                         {230, 159, 0, 255},
+                                         {86, 180, 233, 255}}};
+constexpr std::uint8_t band_opacity = 50;
+
+vtkSmartPointer<vtkTable> make_table(
+    std::initializer_list<std::pair<const char*, const std::vector<double>*>> columns) {
+    auto table = vtkSmartPointer<vtkTable>::New();
+    for (const auto& [name, values] : columns) {
+        vtkNew<vtkDoubleArray> column;
+        column->SetName(name);
+        for (const double v : *values) column->InsertNextValue(v);
+        table->AddColumn(column);
+    }
+    return table;
+}
+
+int pen_type(LineStyle style) {
+    switch (style) {
+        case LineStyle::none:
+            return vtkPen::NO_PEN;
+        case LineStyle::solid:
+            return vtkPen::SOLID_LINE;
+        case LineStyle::dashed:
+            return vtkPen::DASH_LINE;
+        case LineStyle::dotted:
+            return vtkPen::DOT_LINE;
+    }
+    return vtkPen::SOLID_LINE;
+}
+
+int marker_type(MarkerStyle style) {
+    switch (style) {
+        case MarkerStyle::none:
+            return vtkPlotPoints::NONE;
+        case MarkerStyle::circle:
+            return vtkPlotPoints::CIRCLE;
+        case MarkerStyle::square:
+            return vtkPlotPoints::SQUARE;
+        case MarkerStyle::diamond:
+            return vtkPlotPoints::DIAMOND;
+        case MarkerStyle::cross:
+            return vtkPlotPoints::CROSS;
+        case MarkerStyle::plus:
+            return vtkPlotPoints::PLUS;
+    }
+    return vtkPlotPoints::NONE;
+}
+
+void add_band(vtkChartXY& chart, const PlotSeries& series, Colour colour) {
+    if (series.lower.empty()) return;
+    auto* band = vtkPlotArea::SafeDownCast(chart.AddPlot(vtkChart::AREA));
+    band->SetInputData(make_table({{"x", &series.x}, {"lower", &series.lower}, {"upper", &series.upper}}));
+    band->SetInputArray(0, "x");
+    band->SetInputArray(1, "lower");
+    band->SetInputArray(2, "upper");
+    band->GetBrush()->SetColor(colour[0], colour[1], colour[2], band_opacity);
+    band->GetPen()->SetLineType(vtkPen::NO_PEN);
+    band->SetLegendVisibility(false);
+}
+
+void add_line(vtkChartXY& chart, const PlotSeries& series, Colour colour, double font) {
+    auto* plot = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
+    plot->SetInputData(make_table({{"x", &series.x}, {"y", &series.y}}), 0, 1);
+    plot->SetLabel(series.label);
+    plot->SetLegendVisibility(!series.label.empty());
+    plot->SetColor(colour[0], colour[1], colour[2], colour[3]);
+    plot->SetWidth(static_cast<float>(0.13 * font * series.width));
+    plot->GetPen()->SetLineType(pen_type(series.line));
+    plot->SetMarkerStyle(marker_type(series.marker));
+    plot->SetMarkerSize(static_cast<float>(0.55 * font));
+}
+
+void set_axis(vtkAxis& axis, const PlotAxis& spec, const PlotRange& range, double font) {
+    axis.SetTitle(spec.label);
+    axis.SetLogScale(spec.logarithmic);
+    axis.SetBehavior(vtkAxis::FIXED);
+    axis.SetUnscaledRange(range.min, range.max);
+    set_font(*axis.GetTitleProperties(), font, false);
+    set_font(*axis.GetLabelProperties(), 0.9 * font, false);
+    axis.GetGridPen()->SetColor(225, 225, 225);
+    axis.GetGridPen()->SetWidth(1.0F);
+    axis.GetPen()->SetWidth(static_cast<float>(0.07 * font));
+}
+
+void place_legend(vtkChartXY& chart, const PlotSpec& spec, double font) {
+    const auto labelled = std::count_if(spec.series.begin(), spec.series.end(),
+                                        [](const PlotSeries& s) { return !s.label.empty(); });
+    chart.SetShowLegend(spec.legend != "none" && labelled > 0);
+    vtkChartLegend& legend = *chart.GetLegend();
+    set_font(*legend.GetLabelProperties(), 0.9 * font, false);
+    legend.SetLabelSize(static_cast<int>(std::lround(0.9 * font)));
+    legend.SetSymbolWidth(static_cast<int>(std::lround(2.2 * font)));
+    legend.SetPadding(static_cast<int>(std::lround(0.4 * font)));
+    legend.GetPen()->SetColor(200, 200, 200);
+    legend.GetBrush()->SetColor(255, 255, 255, 225);
+    legend.SetInline(true);
+    double widest = 0.0;
+    for (const PlotSeries& series : spec.series)
+        widest = std::max(widest, text_width(series.label, 0.9 * font, false));
+    const double box_width = (widest + 4.0 * font) / (0.85 * spec.width);
+    const double box_height = 1.5 * font * static_cast<double>(labelled + 1) / (0.8 * spec.height);
+    const std::string corner =
+        spec.legend == "auto" ? emptiest_corner(spec, box_width, box_height) : spec.legend;
+    legend.SetHorizontalAlignment(corner.ends_with("left") ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
+    legend.SetVerticalAlignment(corner.starts_with("bottom") ? vtkChartLegend::BOTTOM : vtkChartLegend::TOP);
+    if (corner == "right") legend.SetInline(false);
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
+    const double font = std::min(spec.width / 50.0, spec.height / 36.0);
+    auto chart = vtkSmartPointer<vtkChartXY>::New();
+    chart->SetTitle(spec.title);
+    set_font(*chart->GetTitleProperties(), 1.15 * font, true);
+    set_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec.x, x_range(spec), font);
+    set_axis(*chart->GetAxis(vtkAxis::LEFT), spec.y, y_range(spec), font);
+    std::size_t number = 0;
+    for (const PlotSeries& series : spec.series) {
+        const auto index = series.colour ? static_cast<std::size_t>(*series.colour) : number;
+        ++number;
+        const Colour colour = palette[index % palette.size()];
+        add_band(*chart, series, colour);
+        add_line(*chart, series, colour, font);
+    }
+    place_legend(*chart, spec, font);
+    return chart;
+}
+
+}  // namespace softgrain

@@ -1,0 +1,10 @@
+#pragma once
+// softgrain-render plot: a line plot from a JSON spec.
+#include <filesystem>
+
+namespace softgrain {
+
+/// Writes `out` (.png) and the same picture beside it as .svg. Throws InputError, OutputError.
+void draw_plot(const std::filesystem::path& spec_file, const std::filesystem::path& out);
+
+}  // namespace softgrain

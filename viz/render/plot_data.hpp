@@ -1,0 +1,25 @@
+#pragma once
+// The numbers of a plot, ready to draw, and the ranges of its axes.
+#include <filesystem>
+#include <vector>
+
+#include "viz/plot_spec.hpp"
+
+namespace softgrain {
+
+/// Reads the CSV columns of a spec into its inline numbers; on a logarithmic axis values <= 0 become nan.
+/// `folder`: where relative paths start. Throws InputError, also if nothing is left to draw.
+void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder);
+
+struct PlotRange {
+    double min, max;
+};
+/// As given, else that of the data with a little room. A linear axis starts at 0 if the data come near it.
+PlotRange x_range(const PlotSpec& spec);
+PlotRange y_range(const PlotSpec& spec);
+
+/// Corner with the fewest points of the data in a box of `width` x `height`, fractions of the plot area:
+/// top_left, top_right, bottom_left or bottom_right.
+std::string emptiest_corner(const PlotSpec& spec, double width, double height);
+
+}  // namespace softgrain

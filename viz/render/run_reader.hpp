@@ -1,0 +1,48 @@
+#pragma once
+// The written frames of a run, read back with every check VTK leaves out.
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace softgrain {
+
+/// Reads a .vtp file. Throws OutputError naming it if it is missing, truncated or damaged.
+vtkSmartPointer<vtkPolyData> read_vtp(const std::filesystem::path& path);
+
+struct FrameFile {
+    double time;  ///< [s]
+    std::filesystem::path path;
+};
+/// The entries of a .pvd file. Throws OutputError.
+std::vector<FrameFile> read_pvd(const std::filesystem::path& path);
+
+/// What is drawn of one frame. Contacts and walls are null if the run did not write them.
+struct Frame {
+    double time;                                                ///< [s]
+    double packing_fraction, mean_stress, coordination_number;  ///< nan if the history does not have them
+    vtkSmartPointer<vtkPolyData> grains, contacts, walls;
+};
+
+class RunReader {
+  public:
+    /// Throws InputError if there is no run with frames, OutputError if its files are damaged.
+    RunReader(std::string label, std::filesystem::path directory);
+
+    const std::string& label() const { return label_; }
+    /// The frame at this fraction (0 to 1) of the list of frames.
+    std::size_t frame_at_fraction(double fraction) const;
+    /// The frame whose packing fraction in the history is nearest. Throws InputError without a history.
+    std::size_t frame_at_packing_fraction(double packing_fraction) const;
+    Frame read(std::size_t frame) const;
+
+  private:
+    std::string label_;
+    std::filesystem::path directory_;
+    std::vector<FrameFile> grains_, contacts_, walls_;
+    std::vector<double> packing_fraction_, mean_stress_, coordination_number_;  ///< one per frame
+};
+
+}  // namespace softgrain

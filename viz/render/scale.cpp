@@ -1,0 +1,95 @@
+#include "viz/render/scale.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace softgrain {
+namespace {
+
+/// Smith & van der Walt (2015), ten equal steps.
+constexpr std::array<std::array<int, 3>, 10> viridis_steps{{{0x44, 0x01, 0x54},
+                                                            {0x48, 0x28, 0x78},
+                                                            {0x3E, 0x4A, 0x89},
+                                                            {0x31, 0x68, 0x8E},
+                                                            {0x26, 0x82, 0x8E},
+                                                            {0x1F, 0x9E, 0x89},
+                                                            {0x35, 0xB7, 0x79},
+                                                            {0x6D, 0xCD, 0x59},
+                                                            {0xB4, 0xDE, 0x2C},
+                                                            {0xFD, 0xE7, 0x25}}};
+constexpr Colour no_value{190, 190, 190, 255};
+
+void drop_nan(std::vector<double>& values) {
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });
+}
+
+}  // namespace
+
+Colour viridis(double t) {
+    if (std::isnan(t)) return no_value;
+    const double step = std::clamp(t, 0.0, 1.0) * (viridis_steps.size() - 1);
+    const auto k = std::min(static_cast<std::size_t>(step), viridis_steps.size() - 2);
+    const double share = step - static_cast<double>(k);
+    Colour colour{0, 0, 0, 255};
+    for (std::size_t c = 0; c < 3; ++c)
+        colour[c] = static_cast<std::uint8_t>(
+            std::lround((1.0 - share) * viridis_steps[k][c] + share * viridis_steps[k + 1][c]));
+    return colour;
+}
+
+double percentile(std::vector<double>& values, double share) {
+    drop_nan(values);
+    if (values.empty()) return 0.0;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
+ColourRange robust_range(std::vector<double> values) {
+    const double low = percentile(values, 0.02);
+    const double high = percentile(values, 0.98);
+    const double spread = std::max(high, 0.0) - std::min(low, 0.0);
+    if (spread == 0.0) return given_range(values, 0.0, 1.0);
+    // A few per cent of the other sign is noise, not a side of the scale.
+    const double min = low < -0.05 * spread ? low : 0.0;
+    const double max = high > 0.05 * spread ? high : 0.0;
+    return given_range(values, min, max);
+}
+
+ColourRange given_range(const std::vector<double>& values, double min, double max) {
+    ColourRange range{min, max, false, false};
+    const double tolerance = 1e-6 * (max - min);
+    for (const double v : values) {
+        range.below = range.below || v < min - tolerance;
+        range.above = range.above || v > max + tolerance;
+    }
+    return range;
+}
+
+double round_down(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double step : {5.0, 2.0})
+        if (step * power <= value) return step * power;
+    return power;
+}
+
+std::vector<double> round_ticks(double min, double max) {
+    const double spacing = round_down((max - min) / 3.5);
+    std::vector<double> ticks;
+    for (double k = std::ceil(min / spacing - 1e-9); k * spacing <= max + 1e-9 * spacing; k += 1.0)
+        ticks.push_back(k * spacing);
+    return ticks;
+}
+
+std::string tick_text(double value, double spacing) {
+    if (value == 0.0 || std::abs(value) < 1e-9 * spacing) return "0";
+    const double size = std::max(std::abs(value), spacing);
+    if (size >= 1e4 || spacing < 1e-3) return fmt::format("{:.3g}", value);
+    const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(spacing) - 1e-9)));
+    return fmt::format("{:.{}f}", value, digits);
+}
+
+}  // namespace softgrain

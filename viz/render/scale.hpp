@@ -1,0 +1,36 @@
+#pragma once
+// Colours, their range, and round numbers for scales.
+#include <string>
+#include <vector>
+
+#include "viz/render/page.hpp"
+
+namespace softgrain {
+
+/// Viridis, readable with any colour vision and in grey; t is clamped to [0, 1], nan is grey.
+Colour viridis(double t);
+
+/// The range of a colour scale and whether values lie outside it.
+struct ColourRange {
+    double min, max;
+    bool below, above;
+
+    double fraction(double value) const { return (value - min) / (max - min); }
+};
+
+/// From the 2nd to the 98th percentile, widened to 0 on the near side. `values` may hold nan.
+ColourRange robust_range(std::vector<double> values);
+/// The same with given ends.
+ColourRange given_range(const std::vector<double>& values, double min, double max);
+
+/// Value below which this share of the values lies; 0 for no values.
+double percentile(std::vector<double>& values, double share);
+
+/// 4 to 8 round numbers within [min, max].
+std::vector<double> round_ticks(double min, double max);
+/// Largest 1, 2 or 5 times a power of ten that is not above `value` > 0.
+double round_down(double value);
+/// Short text of a tick value among its neighbours.
+std::string tick_text(double value, double spacing);
+
+}  // namespace softgrain

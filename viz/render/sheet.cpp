@@ -1,0 +1,150 @@
+#include "viz/render/sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace softgrain {
+namespace {
+
+constexpr double tallest_panel = 1.4;  ///< times its width
+constexpr double widest_chain = 0.28;  ///< times the mean diameter of the grains
+
+/// Sizes of everything on the page [pixels].
+struct Layout {
+    double font, margin, left, gap, header, caption, footer;
+    double panel_width, panel_height, scale;
+    double height;
+};
+
+Layout make_layout(const Sheet& sheet, const SheetScale& scale, int width) {
+    const auto rows = static_cast<double>(sheet.row_labels.size());
+    const auto columns = static_cast<double>(sheet.column_labels.size());
+    Layout l{};
+    l.font = width / (columns > 1.0 ? 76.0 : 52.0);
+    l.margin = 1.2 * l.font;
+    l.left = 2.2 * l.font;
+    l.gap = 1.6 * l.font;
+    l.header = columns > 1.0 ? 2.4 * l.font : 0.6 * l.font;
+    l.caption = 3.2 * l.font;
+    l.footer = 6.0 * l.font;
+    l.panel_width = (width - l.left - 2.0 * l.margin - (columns - 1.0) * l.gap) / columns;
+    l.scale = std::min(l.panel_width / scale.extent.x(), tallest_panel * l.panel_width / scale.extent.y());
+    l.panel_height = l.scale * scale.extent.y();
+    l.height = l.margin + l.header + rows * (l.caption + l.panel_height + l.gap) + l.footer;
+    return l;
+}
+
+std::string number_text(double value) {
+    return fmt::format("{:.3g}", value);
+}
+
+void draw_caption(Page& page, const Frame& frame, const Layout& l, double x, double y) {
+    std::string first, second;
+    if (std::isfinite(frame.packing_fraction))
+        first = fmt::format("packing fraction {:.3f}", frame.packing_fraction);
+    else
+        first = "time " + number_text(frame.time) + " s";
+    if (std::isfinite(frame.mean_stress)) second = "mean stress " + number_text(frame.mean_stress) + " N/m";
+    if (std::isfinite(frame.coordination_number))
+        second += fmt::format("{}Z {:.2f}", second.empty() ? "" : ",  ", frame.coordination_number);
+    page.text({x, y + 1.9 * l.font}, first, {l.font, Align::centre, Align::centre});
+    page.text({x, y + 0.75 * l.font}, second, {l.font, Align::centre, Align::centre});
+}
+
+/// A pointed end, for values beyond the scale.
+void draw_point(Page& page, const Vec2& base, double height, double reach, Colour colour) {
+    const std::vector<Vec2> corners{base, base + Vec2{reach, height / 2.0}, base + Vec2{0.0, height}};
+    page.fill(corners, colour);
+    page.stroke(corners, 1.5, black, false);
+}
+
+void draw_colour_bar(Page& page, const SheetScale& scale, const Layout& l, double x, double y, double width) {
+    const double thickness = 1.1 * l.font;
+    constexpr int steps = 256;
+    for (int k = 0; k < steps; ++k)
+        page.rectangle({x + width * k / steps, y}, {x + width * (k + 1) / steps, y + thickness},
+                       viridis((k + 0.5) / steps));
+    if (scale.colours.below) draw_point(page, {x, y}, thickness, -thickness, viridis(0.0));
+    if (scale.colours.above) draw_point(page, {x + width, y}, thickness, thickness, viridis(1.0));
+    page.stroke(std::vector<Vec2>{{x, y}, {x + width, y}}, 1.5, black, false);
+    page.stroke(std::vector<Vec2>{{x, y + thickness}, {x + width, y + thickness}}, 1.5, black, false);
+    if (!scale.colours.below) page.stroke(std::vector<Vec2>{{x, y}, {x, y + thickness}}, 1.5, black, false);
+    if (!scale.colours.above)
+        page.stroke(std::vector<Vec2>{{x + width, y}, {x + width, y + thickness}}, 1.5, black, false);
+    const auto ticks = round_ticks(scale.colours.min, scale.colours.max);
+    const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : scale.colours.max;
+    for (const double tick : ticks) {
+        const double at = x + width * scale.colours.fraction(tick);
+        page.stroke(std::vector<Vec2>{{at, y}, {at, y - 0.3 * l.font}}, 1.5, black, false);
+        page.text({at, y - 0.5 * l.font}, tick_text(tick, spacing), {l.font, Align::centre, Align::high});
+    }
+    std::string title = scale.field;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    if (!scale.unit.empty()) title += " [" + scale.unit + "]";
+    page.text({x + width / 2.0, y + thickness + 0.5 * l.font}, title, {l.font, Align::centre, Align::low});
+}
+
+void draw_scale_bar(Page& page, const SheetScale& scale, const Layout& l, double x, double y, double room) {
+    const double metres = round_down(std::min(0.8 * room / l.scale, 0.5 * scale.extent.x()));
+    const double length = metres * l.scale;
+    const double middle = y + 0.55 * l.font;
+    page.stroke(std::vector<Vec2>{{x, middle}, {x + length, middle}}, 0.22 * l.font, black, false);
+    for (const double end : {x, x + length})
+        page.stroke(std::vector<Vec2>{{end, middle - 0.4 * l.font}, {end, middle + 0.4 * l.font}},
+                    0.12 * l.font, black, false);
+    page.text({x + length / 2.0, y - 0.5 * l.font}, number_text(metres) + " m",
+              {l.font, Align::centre, Align::high});
+}
+
+void draw_force_key(Page& page, const SheetScale& scale, const Layout& l, double right, double y) {
+    if (scale.widest_force <= 0.0) return;
+    const double length = 4.0 * l.font;
+    const double middle = y + 0.55 * l.font;
+    const double width = widest_chain * scale.diameter * l.scale;
+    draw_chain(page, std::vector<Vec2>{{right - length, middle}, {right, middle}}, width);
+    page.text({right, y - 0.5 * l.font}, number_text(scale.widest_force) + " N",
+              {l.font, Align::high, Align::high});
+    page.text({right, y + 1.6 * l.font}, "normal force", {l.font, Align::high, Align::low});
+}
+
+}  // namespace
+
+Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
+    const Layout l = make_layout(sheet, scale, width);
+    Page page(width, static_cast<int>(std::lround(l.height)));
+    const PanelScale panel{scale.field, scale.colours, l.scale, scale.widest_force,
+                           widest_chain * scale.diameter * l.scale};
+    const auto column_centre = [&](std::size_t c) {
+        return l.margin + l.left + static_cast<double>(c) * (l.panel_width + l.gap) + l.panel_width / 2.0;
+    };
+    double y = l.height - l.margin - l.header;
+    if (sheet.column_labels.size() > 1)
+        for (std::size_t c = 0; c < sheet.column_labels.size(); ++c)
+            page.text({column_centre(c), y + l.header / 2.0}, sheet.column_labels[c],
+                      {1.15 * l.font, Align::centre, Align::centre, false, true});
+    for (std::size_t r = 0; r < sheet.row_labels.size(); ++r) {
+        y -= l.caption + l.panel_height;
+        for (std::size_t c = 0; c < sheet.column_labels.size(); ++c) {
+            const Frame& frame = *sheet.frames[r][c];
+            const Vec2 centre{column_centre(c), y + l.panel_height / 2.0};
+            draw_panel(page, frame, panel, centre);
+            const Extent extent = frame_extent(frame);
+            const double half = l.scale * (extent.high.y() - extent.low.y()) / 2.0;
+            draw_caption(page, frame, l, centre.x(), centre.y() + half + 0.3 * l.font);
+        }
+        page.text({l.margin + 0.5 * l.font, y + l.panel_height / 2.0}, sheet.row_labels[r],
+                  {1.25 * l.font, Align::centre, Align::centre, true, true});
+        y -= l.gap;
+    }
+    const double bar = 0.46 * width;
+    const double base = l.footer - 3.6 * l.font;
+    draw_colour_bar(page, scale, l, (width - bar) / 2.0, base, bar);
+    draw_scale_bar(page, scale, l, l.margin + l.left, base, 0.2 * width);
+    draw_force_key(page, scale, l, width - l.margin, base);
+    return page;
+}
+
+}  // namespace softgrain

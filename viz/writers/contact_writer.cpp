@@ -1,0 +1,98 @@
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+#include <utility>
+
+#include "common/errors.hpp"
+#include "viz/writers/vtp_file.hpp"
+#include "viz/writers/writers.hpp"
+
+namespace softgrain {
+namespace {
+
+/// Foot of the perpendicular from `point` on the wall.
+Vec2 foot_on_wall(const Box& box, int wall, Vec2 point) {
+    point[wall_axis(wall)] = box.position[static_cast<std::size_t>(wall)];
+    return point;
+}
+
+void insert_point(vtkPoints& points, vtkCellArray& lines, const Vec2& p) {
+    lines.InsertCellPoint(points.InsertNextPoint(p.x(), p.y(), 0.0));
+}
+
+void add_lines(const GrainView& view, vtkPolyData& data) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> lines;
+    for (const GrainContact& contact : view.contacts) {
+        lines->InsertNextCell(3);
+        insert_point(*points, *lines, view.centroid[static_cast<std::size_t>(contact.i)]);
+        insert_point(*points, *lines, contact.point);
+        insert_point(*points, *lines,
+                     contact.with_wall() ? foot_on_wall(view.box, contact.wall(), contact.point)
+                                         : view.centroid[static_cast<std::size_t>(contact.j)]);
+    }
+    data.SetPoints(points);
+    data.SetLines(lines);
+}
+
+void add_contact_data(const GrainView& view, vtkPolyData& data) {
+    const std::size_t n = view.contacts.size();
+    vtkCellData& cells = *data.GetCellData();
+    auto normal_force = add_numbers(cells, "normal_force", "N", 1, n);
+    auto tangential_force = add_numbers(cells, "tangential_force", "N", 1, n);
+    auto force = add_numbers(cells, "force", "N", 3, n);
+    auto normal = add_numbers(cells, "normal", "", 3, n);
+    auto length = add_numbers(cells, "contact_length", "m", 1, n);
+    auto grain_i = add_ids(cells, "grain_i", n);
+    auto grain_j = add_ids(cells, "grain_j", n);
+    vtkNew<vtkUnsignedCharArray> is_wall;
+    is_wall->SetName("is_wall");
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto cell = static_cast<vtkIdType>(k);
+        const GrainContact& contact = view.contacts[k];
+        if (!contact.point.allFinite() || !contact.force.allFinite() || !contact.normal.allFinite() ||
+            !std::isfinite(contact.length))
+            throw DivergedError(contact.i, "contact force or point", view.time,
+                                "not a number that can be drawn");
+        normal_force->SetValue(cell, contact.normal_force());
+        tangential_force->SetValue(cell, contact.force.dot(perpendicular(contact.normal)));
+        force->SetTuple3(cell, contact.force.x(), contact.force.y(), 0.0);
+        normal->SetTuple3(cell, contact.normal.x(), contact.normal.y(), 0.0);
+        length->SetValue(cell, contact.length);
+        grain_i->SetValue(cell, contact.i);
+        grain_j->SetValue(cell, contact.j);
+        is_wall->InsertNextValue(contact.with_wall() ? 1 : 0);
+    }
+    cells.AddArray(is_wall);
+    cells.SetActiveScalars("normal_force");
+}
+
+}  // namespace
+
+ContactWriter::ContactWriter(std::filesystem::path run_dir) : frames_(std::move(run_dir), "contacts") {}
+
+Need ContactWriter::need(const Sample& sample) const {
+    return sample.is_frame ? Need::contacts : Need::base;
+}
+
+void ContactWriter::resume(std::span<const double> frame_times) {
+    frames_.resume(frame_times);
+}
+
+void ContactWriter::observe(const GrainView& view, const Sample& sample) {
+    if (!sample.is_frame) return;
+    vtkNew<vtkPolyData> data;
+    add_lines(view, *data);
+    add_contact_data(view, *data);
+    frames_.add(sample.frame, view.time, *data);
+}
+
+}  // namespace softgrain

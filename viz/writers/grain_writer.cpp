@@ -1,0 +1,136 @@
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <cmath>
+#include <utility>
+
+#include "common/errors.hpp"
+#include "viz/writers/polygon_shape.hpp"
+#include "viz/writers/vtp_file.hpp"
+#include "viz/writers/writers.hpp"
+
+namespace softgrain {
+namespace {
+
+void require_finite(bool finite, std::size_t grain, const char* quantity, double time) {
+    if (!finite)
+        throw DivergedError(static_cast<int>(grain), quantity, time, "not a number that can be drawn");
+}
+
+/// Points and polygons, with the shapes that follow from them.
+void add_outlines(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
+    vtkNew<vtkCellArray> polygons;
+    auto aspect_ratio = add_numbers(*data.GetCellData(), "aspect_ratio", "", 1, view.size());
+    auto orientation = add_numbers(*data.GetCellData(), "orientation", "rad", 1, view.size());
+    for (std::size_t g = 0; g < view.size(); ++g) {
+        const auto first = static_cast<std::size_t>(view.outline_offset[g]);
+        const auto last = static_cast<std::size_t>(view.outline_offset[g + 1]);
+        const std::span<const Vec2> outline = view.outline_point.subspan(first, last - first);
+        polygons->InsertNextCell(static_cast<int>(outline.size()));
+        for (const Vec2& p : outline) {
+            require_finite(p.allFinite(), g, "outline", view.time);
+            polygons->InsertCellPoint(points.InsertNextPoint(p.x(), p.y(), 0.0));
+        }
+        const PolygonShape shape = polygon_shape(outline);
+        aspect_ratio->SetValue(static_cast<vtkIdType>(g), shape.aspect_ratio);
+        orientation->SetValue(static_cast<vtkIdType>(g), shape.orientation);
+    }
+    data.SetPolys(polygons);
+}
+
+void add_centroids(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
+    vtkNew<vtkCellArray> vertices;
+    for (const Vec2& c : view.centroid) {
+        vertices->InsertNextCell(1);
+        vertices->InsertCellPoint(points.InsertNextPoint(c.x(), c.y(), 0.0));
+    }
+    data.SetVerts(vertices);
+}
+
+void add_scalars(vtkPolyData& data, std::string_view name, std::string_view unit,
+                 std::span<const double> values) {
+    auto array = add_numbers(*data.GetCellData(), name, unit, 1, values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) array->SetValue(static_cast<vtkIdType>(k), values[k]);
+}
+
+/// A plane tensor xx, xy, yx, yy as the nine components ParaView takes for a tensor; zero out of plane.
+void set_tensor(vtkDoubleArray& array, std::size_t tuple, double xx, double xy, double yx, double yy) {
+    const double components[9] = {xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0};
+    array.SetTuple(static_cast<vtkIdType>(tuple), components);
+}
+
+void add_stress(const GrainView& view, vtkPolyData& data) {
+    auto stress = add_numbers(*data.GetCellData(), "stress", "N/m", 9, view.size());
+    auto mean = add_numbers(*data.GetCellData(), "mean_stress", "N/m", 1, view.size());
+    auto deviatoric = add_numbers(*data.GetCellData(), "deviatoric_stress", "N/m", 1, view.size());
+    for (std::size_t g = 0; g < view.size(); ++g) {
+        const Mat2& s = view.stress[g];
+        require_finite(s.allFinite(), g, "stress", view.time);
+        const double shear = (s(0, 1) + s(1, 0)) / 2.0;
+        set_tensor(*stress, g, s(0, 0), shear, shear, s(1, 1));
+        mean->SetValue(static_cast<vtkIdType>(g), (s(0, 0) + s(1, 1)) / 2.0);
+        deviatoric->SetValue(static_cast<vtkIdType>(g), std::hypot((s(0, 0) - s(1, 1)) / 2.0, shear));
+    }
+    data.GetCellData()->SetActiveTensors("stress");
+}
+
+void add_field(const Field& field, std::size_t grains, vtkPolyData& data) {
+    if (field.components == 1) return add_scalars(data, field.name, field.unit, field.values);
+    auto array = add_numbers(*data.GetCellData(), field.name, field.unit, 9, grains);
+    for (std::size_t g = 0; g < grains; ++g) {
+        const double* t = field.values.data() + 4 * g;
+        set_tensor(*array, g, t[0], t[1], t[2], t[3]);
+    }
+}
+
+void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
+    auto id = add_ids(*data.GetCellData(), "grain", view.size());
+    auto velocity = add_numbers(*data.GetCellData(), "velocity", "m/s", 3, view.size());
+    for (std::size_t g = 0; g < view.size(); ++g) {
+        const Vec2& c = view.centroid[g];
+        const Vec2& v = view.velocity[g];
+        require_finite(c.allFinite() && v.allFinite(), g, "centroid or velocity", view.time);
+        id->SetValue(static_cast<vtkIdType>(g), static_cast<vtkIdType>(g));
+        velocity->SetTuple3(static_cast<vtkIdType>(g), v.x(), v.y(), 0.0);
+    }
+}
+
+}  // namespace
+
+GrainWriter::GrainWriter(std::filesystem::path run_dir, Need needs)
+    : frames_(std::move(run_dir), "grains"), needs_(needs) {}
+
+Need GrainWriter::need(const Sample& sample) const {
+    return sample.is_frame ? needs_ : Need::base;
+}
+
+void GrainWriter::resume(std::span<const double> frame_times) {
+    frames_.resume(frame_times);
+}
+
+void GrainWriter::observe(const GrainView& view, const Sample& sample) {
+    if (!sample.is_frame) return;
+    vtkNew<vtkPolyData> data;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    add_identity_and_motion(view, *data);
+    add_scalars(*data, "mass", "kg", view.mass);
+    add_scalars(*data, "reference_area", "m^2", view.reference_area);
+    if (wants(needs_, Need::area)) add_scalars(*data, "area", "m^2", view.area);
+    if (wants(needs_, Need::outlines))
+        add_outlines(view, *points, *data);
+    else
+        add_centroids(view, *points, *data);
+    data->SetPoints(points);
+    if (wants(needs_, Need::stress)) add_stress(view, *data);
+    if (wants(needs_, Need::fields))
+        for (const Field& field : view.fields) add_field(field, view.size(), *data);
+    frames_.add(sample.frame, view.time, *data);
+}
+
+}  // namespace softgrain

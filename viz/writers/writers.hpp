@@ -1,0 +1,55 @@
+#pragma once
+// Observers that write each frame for ParaView: grains.pvd, contacts.pvd and walls.pvd.
+#include <filesystem>
+
+#include "common/observer.hpp"
+#include "viz/writers/frame_collection.hpp"
+
+namespace softgrain {
+
+/// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids)
+/// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
+/// aspect_ratio, orientation and the method's own fields.
+class GrainWriter final : public Observer {
+  public:
+    /// `needs`: which of area, stress, outlines and fields to write.
+    GrainWriter(std::filesystem::path run_dir, Need needs);
+    Need need(const Sample& sample) const override;
+    /// Throws OutputError, and DivergedError if a grain's position, outline or stress is not finite.
+    void observe(const GrainView& view, const Sample& sample) override;
+    void resume(std::span<const double> frame_times) override;
+
+  private:
+    FrameCollection frames_;
+    Need needs_;
+};
+
+/// Contacts as lines centroid - contact point - centroid, or centroid - contact point - wall, with cell data:
+/// normal_force, tangential_force, force, normal, contact_length, grain_i, grain_j (-1 - wall), is_wall.
+class ContactWriter final : public Observer {
+  public:
+    explicit ContactWriter(std::filesystem::path run_dir);
+    Need need(const Sample& sample) const override;
+    /// Throws OutputError, and DivergedError if a contact's point or force is not finite.
+    void observe(const GrainView& view, const Sample& sample) override;
+    void resume(std::span<const double> frame_times) override;
+
+  private:
+    FrameCollection frames_;
+};
+
+/// The four walls as lines with cell data: wall (0 left, 1 right, 2 bottom, 3 top), wall_force, normal_force,
+/// wall_stress.
+class WallWriter final : public Observer {
+  public:
+    explicit WallWriter(std::filesystem::path run_dir);
+    Need need(const Sample& sample) const override;
+    /// Throws OutputError, and DivergedError if a wall's position or force is not finite.
+    void observe(const GrainView& view, const Sample& sample) override;
+    void resume(std::span<const double> frame_times) override;
+
+  private:
+    FrameCollection frames_;
+};
+
+}  // namespace softgrain
