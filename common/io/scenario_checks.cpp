@@ -131,6 +131,7 @@ void check_stage(const CheckedTable& stage, ErrorList& errors) {
 
 std::filesystem::path packing_file(const CheckedTable& packing, const std::filesystem::path& folder) {
     const std::filesystem::path path = packing.settings.text("path");
+    if (path.empty()) return path;
     const bool from_option = !packing.place_of("path").option.empty();
     return std::filesystem::absolute(from_option ? path : folder / path).lexically_normal();
 }

@@ -118,13 +118,14 @@ void apply_overrides(Node& document, std::span<const std::string> overrides, Err
         const bool bad = find_bad_utf8(text).has_value() ||
                          std::any_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
         const std::size_t equals = bad ? text.npos : text.find('=');
-        const Place place{++order, 1, bad ? "..." : text.substr(0, equals)};
+        const Place place{++order, 1, bad ? "..." : shown(text.substr(0, equals == 0 ? text.npos : equals))};
         if (bad)
             errors.add(place, "", "must be one line of UTF-8 text");
         else if (equals == text.npos)
             errors.add(place, "", "expected KEY=VALUE, as material.density=2");
         else
-            apply(document, place.option, std::string_view(text).substr(equals + 1), place, errors);
+            apply(document, std::string_view(text).substr(0, equals),
+                  std::string_view(text).substr(equals + 1), place, errors);
     }
 }
 

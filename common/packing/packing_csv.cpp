@@ -76,7 +76,8 @@ class Reader {
         const std::string_view text = trimmed(field);
         double value = 0.0;
         const char* const end = text.data() + text.size();
-        const auto result = std::from_chars(text.data(), end, value);
+        const bool plus = text.starts_with('+') && !text.starts_with("+-");  // from_chars knows only minus
+        const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
         if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value))
             fail(line_, fmt::format("'{}' is not a finite number", text.substr(0, 40)));
         return value;

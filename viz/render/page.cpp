@@ -94,7 +94,8 @@ void Page::stroke(std::span<const Vec2> line, double width, Colour colour, bool 
     }
     if (width < round_above || colour[3] != 255) return;
     constexpr int edges = 12;
-    for (std::size_t k = 0; k < n; ++k)
+    const std::size_t ends = closed ? 0 : 1;
+    for (std::size_t k = ends; k + ends < n; ++k)
         for (int e = 0; e < edges; ++e) {
             const double from = 2.0 * std::numbers::pi * e / edges;
             const double to = 2.0 * std::numbers::pi * (e + 1) / edges;
@@ -117,10 +118,13 @@ void Page::add_shapes(vtkRenderer& renderer) const {
     vtkNew<vtkCellArray> triangles;
     vtkNew<vtkUnsignedCharArray> colours;
     colours->SetNumberOfComponents(4);
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-        if (k % 3 == 0) triangles->InsertNextCell(3);
-        triangles->InsertCellPoint(points->InsertNextPoint(corners_[k].x(), corners_[k].y(), 0.0));
-        colours->InsertNextTypedTuple(colours_[k / 3].data());
+    // VTK tests the depth of flat shapes too, and of equal depths the first is kept: the topmost goes first.
+    for (std::size_t t = colours_.size(); t-- > 0;) {
+        triangles->InsertNextCell(3);
+        for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+            triangles->InsertCellPoint(points->InsertNextPoint(corners_[k].x(), corners_[k].y(), 0.0));
+            colours->InsertNextTypedTuple(colours_[t].data());
+        }
     }
     vtkNew<vtkPolyData> shapes;
     shapes->SetPoints(points);

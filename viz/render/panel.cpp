@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "common/errors.hpp"
 
@@ -104,19 +103,19 @@ void draw_grains(Page& page, const Frame& frame, const PanelScale& scale, const 
     }
 }
 
-void draw_chains(Page& page, const Frame& frame, const PanelScale& scale, const Placement& place) {
-    if (!frame.contacts || scale.widest_force <= 0.0) return;
+/// Placed lines, the strongest last.
+std::vector<Chain> make_chains(const Frame& frame, const PanelScale& scale, const Placement& place) {
+    std::vector<Chain> chains;
+    if (!frame.contacts || scale.widest_force <= 0.0) return chains;
     const auto lines = cell_points(*frame.contacts, *frame.contacts->GetLines());
     const auto forces = contact_forces(frame);
-    std::vector<std::size_t> order(lines.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return forces[a] < forces[b]; });
-    for (const std::size_t k : order) {
+    for (std::size_t k = 0; k < lines.size(); ++k) {
         const double width = scale.widest_line * std::min(1.0, forces[k] / scale.widest_force);
-        if (width < thinnest_chain) continue;
-        draw_chain(page, place(lines[k]), width);
+        if (width >= thinnest_chain) chains.push_back({place(lines[k]), width});
     }
+    std::stable_sort(chains.begin(), chains.end(),
+                     [](const Chain& a, const Chain& b) { return a.width < b.width; });
+    return chains;
 }
 
 }  // namespace
@@ -166,15 +165,15 @@ Extent frame_extent(const Frame& frame) {
     return {{bounds[0], bounds[2]}, {bounds[1], bounds[3]}};
 }
 
-void draw_chain(Page& page, std::span<const Vec2> line, double width) {
-    page.stroke(line, width + 2.0, white, false);
-    page.stroke(line, width, Colour{176, 0, 32, 255}, false);
+void draw_chains(Page& page, std::span<const Chain> chains) {
+    for (const Chain& chain : chains) page.stroke(chain.line, chain.width + 2.0, white, false);
+    for (const Chain& chain : chains) page.stroke(chain.line, chain.width, black, false);
 }
 
 void draw_panel(Page& page, const Frame& frame, const PanelScale& scale, const Vec2& centre) {
     const Placement place(frame, scale.pixels_per_metre, centre);
     draw_grains(page, frame, scale, place);
-    draw_chains(page, frame, scale, place);
+    draw_chains(page, make_chains(frame, scale, place));
     if (!frame.walls) return;
     const Extent extent = frame_extent(frame);
     const Vec2 aside = Vec2::Constant(wall_width / 2.0);

@@ -37,7 +37,12 @@ Extent frame_extent(const Frame& frame);
 /// `centre`: where on the page the middle of the extent goes [pixels].
 void draw_panel(Page& page, const Frame& frame, const PanelScale& scale, const Vec2& centre);
 
-/// A line of the force chains: dark with a light edge, readable on every colour of the scale.
-void draw_chain(Page& page, std::span<const Vec2> line, double width);
+/// A line of the force chains, and its width [pixels].
+struct Chain {
+    std::vector<Vec2> line;
+    double width;
+};
+/// Dark with a light edge, readable on every colour of the scale.
+void draw_chains(Page& page, std::span<const Chain> chains);
 
 }  // namespace softgrain

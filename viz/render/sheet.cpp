@@ -10,7 +10,7 @@ namespace softgrain {
 namespace {
 
 constexpr double tallest_panel = 1.4;  ///< times its width
-constexpr double widest_chain = 0.28;  ///< times the mean diameter of the grains
+constexpr double widest_chain = 0.18;  ///< times the mean diameter of the grains
 
 /// Sizes of everything on the page [pixels].
 struct Layout {
@@ -19,15 +19,19 @@ struct Layout {
     double height;
 };
 
+bool is_single(const Sheet& sheet) {
+    return sheet.row_labels.size() == 1 && sheet.column_labels.size() == 1;
+}
+
 Layout make_layout(const Sheet& sheet, const SheetScale& scale, int width) {
     const auto rows = static_cast<double>(sheet.row_labels.size());
     const auto columns = static_cast<double>(sheet.column_labels.size());
     Layout l{};
     l.font = width / (columns > 1.0 ? 76.0 : 52.0);
     l.margin = 1.2 * l.font;
-    l.left = 2.2 * l.font;
+    l.left = is_single(sheet) ? 0.0 : 2.2 * l.font;
     l.gap = 1.6 * l.font;
-    l.header = columns > 1.0 ? 2.4 * l.font : 0.6 * l.font;
+    l.header = 2.4 * l.font;
     l.caption = 3.2 * l.font;
     l.footer = 6.0 * l.font;
     l.panel_width = (width - l.left - 2.0 * l.margin - (columns - 1.0) * l.gap) / columns;
@@ -104,7 +108,7 @@ void draw_force_key(Page& page, const SheetScale& scale, const Layout& l, double
     const double length = 4.0 * l.font;
     const double middle = y + 0.55 * l.font;
     const double width = widest_chain * scale.diameter * l.scale;
-    draw_chain(page, std::vector<Vec2>{{right - length, middle}, {right, middle}}, width);
+    draw_chains(page, std::vector<Chain>{{{{right - length, middle}, {right, middle}}, width}});
     page.text({right, y - 0.5 * l.font}, number_text(scale.widest_force) + " N",
               {l.font, Align::high, Align::high});
     page.text({right, y + 1.6 * l.font}, "normal force", {l.font, Align::high, Align::low});
@@ -121,10 +125,11 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
         return l.margin + l.left + static_cast<double>(c) * (l.panel_width + l.gap) + l.panel_width / 2.0;
     };
     double y = l.height - l.margin - l.header;
-    if (sheet.column_labels.size() > 1)
-        for (std::size_t c = 0; c < sheet.column_labels.size(); ++c)
-            page.text({column_centre(c), y + l.header / 2.0}, sheet.column_labels[c],
-                      {1.15 * l.font, Align::centre, Align::centre, false, true});
+    for (std::size_t c = 0; c < sheet.column_labels.size(); ++c)
+        page.text(
+            {column_centre(c), y + l.header / 2.0},
+            is_single(sheet) ? sheet.row_labels[0] + ", " + sheet.column_labels[0] : sheet.column_labels[c],
+            {1.15 * l.font, Align::centre, Align::centre, false, true});
     for (std::size_t r = 0; r < sheet.row_labels.size(); ++r) {
         y -= l.caption + l.panel_height;
         for (std::size_t c = 0; c < sheet.column_labels.size(); ++c) {
@@ -135,8 +140,9 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
             const double half = l.scale * (extent.high.y() - extent.low.y()) / 2.0;
             draw_caption(page, frame, l, centre.x(), centre.y() + half + 0.3 * l.font);
         }
-        page.text({l.margin + 0.5 * l.font, y + l.panel_height / 2.0}, sheet.row_labels[r],
-                  {1.25 * l.font, Align::centre, Align::centre, true, true});
+        if (!is_single(sheet))
+            page.text({l.margin + 0.5 * l.font, y + l.panel_height / 2.0}, sheet.row_labels[r],
+                      {1.25 * l.font, Align::centre, Align::centre, true, true});
         y -= l.gap;
     }
     const double bar = 0.46 * width;

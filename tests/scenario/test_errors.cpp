@@ -1,0 +1,191 @@
+// Wrong scenarios and the exact message, with line and column, that each must give.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scenario/support.hpp"
+
+namespace softgrain::test {
+namespace {
+
+struct Case {
+    std::string text;
+    std::string message;
+};
+
+/// A case whose text is followed by a good stage, so that it has one error only.
+Case in(std::string_view text, std::string_view message) {
+    return {std::string(text) + "\n" + std::string(stage), std::string(message)};
+}
+
+const std::vector<Case> values{
+    in("[material]\nyoungs_modulus = -1", "s.toml:2:18: material.youngs_modulus must be > 0, got -1"),
+    in("[material]\nyoungs_modulus = 0", "s.toml:2:18: material.youngs_modulus must be > 0, got 0"),
+    in("\n[material]\n  poisson_ratio = 0.51",
+       "s.toml:3:19: material.poisson_ratio must be >= 0 and <= 0.5, got 0.51"),
+    in("[material]\ndensity = nan", "s.toml:2:11: material.density must be a finite number, got nan"),
+    in("[material]\ndensity = inf", "s.toml:2:11: material.density must be a finite number, got inf"),
+    in("[material]\nfriction = -1e-9", "s.toml:2:12: material.friction must be >= 0, got -1e-09"),
+    in("[material]\ndensity = \"1\"", "s.toml:2:11: material.density must be a number, got the text \"1\""),
+    in("[material]\ndensity = true", "s.toml:2:11: material.density must be a number, got true"),
+    in("[material]\ndensity = [1]", "s.toml:2:11: material.density must be a number, got an array"),
+    in("[material]\ndensity = {a = 1}", "s.toml:2:11: material.density must be a number, got a table"),
+    in("[material]\ndensity = 1979-05-27", "s.toml:2:11: material.density must be a number, got a date"),
+    in("[packing]\ncount = 10.5", "s.toml:2:9: packing.count must be an integer, got the number 10.5"),
+    in("[packing]\ncount = 0", "s.toml:2:9: packing.count must be >= 1 and <= 1000000, got 0"),
+    in("[packing]\ncount = 1000001", "s.toml:2:9: packing.count must be >= 1 and <= 1000000, got 1000001"),
+    in("[packing]\nsize_law = \"gausian\"",
+       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, got "
+       "\"gausian\" "
+       "(did you mean 'gaussian'?)"),
+    in("[packing]\nsize_law = \"q\"",
+       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, got \"q\""),
+    in("[random]\nseed = -1", "s.toml:2:8: random.seed must be >= 0, got -1"),
+    in("title = 3", "s.toml:1:9: title must be a text, got the integer 3"),
+    in("[sampling]\noutlines = 1", "s.toml:2:12: sampling.outlines must be true or false, got the integer 1"),
+    in("[sampling]\nframe_every = 0",
+       "s.toml:2:15: sampling.frame_every must be >= 1 and <= 1000000000, got 0"),
+    in("[sampling]\nstrain_interval = 0",
+       "s.toml:2:19: sampling.strain_interval must be > 0 and <= 1, got 0"),
+    in("[spring]\nlaw = \"herz\"",
+       "s.toml:2:7: spring.law must be one of linear, hertz, got \"herz\" (did you mean 'hertz'?)"),
+    in("[spring]\niterations = 1e3",
+       "s.toml:2:14: spring.iterations must be an integer, got the number 1000"),
+    in("title = \"caf\u00e9\" \n[material]\ndensity = 0", "s.toml:3:11: material.density must be > 0, got 0"),
+};
+
+const std::vector<Case> names{
+    in("[material]\nyoungs_modulu = 1",
+       "s.toml:2:1: unknown key 'material.youngs_modulu', did you mean 'youngs_modulus'?"),
+    in("[material]\nseed = 1", "s.toml:2:1: unknown key 'material.seed', it belongs to [random]"),
+    in("[material]\ncolour_of_grains = 1",
+       "s.toml:2:1: unknown key 'material.colour_of_grains', known are youngs_modulus, poisson_ratio, "
+       "density, "
+       "friction"),
+    in("poisson_ratio = 0.3", "s.toml:1:1: unknown key 'poisson_ratio', it belongs to [material]"),
+    in("[materials]\ndensity = 1", "s.toml:1:2: unknown table 'materials', did you mean 'material'?"),
+    in("[sprnig]", "s.toml:1:2: unknown table 'sprnig', did you mean 'spring'?"),
+    in("[glue]\nstrenght = 1", "s.toml:2:1: unknown key 'glue.strenght', did you mean 'strength'?"),
+    in("[[material]]\ndensity = 1", "s.toml:1:1: material must be one table, write [material], got an array"),
+    in("material = 1", "s.toml:1:12: material must be one table, write [material], got the integer 1"),
+    {"[loading]\nuntil_strain = 0.1\n",
+     "s.toml:1:1: loading must be an array of tables, write [[loading]], got a table"},
+    {"loading = [1]\n", "s.toml:1:12: loading.0 must be a table, got the integer 1"},
+    {"loading = []\n", "s.toml:1:11: loading has no stage: write at least one [[loading]] table"},
+    {"title = \"a\"\n", "s.toml:1:1: loading has no stage: write at least one [[loading]] table"},
+    {"", "s.toml:1:1: loading has no stage: write at least one [[loading]] table"},
+};
+
+const std::vector<Case> stages{
+    {"[[loading]]\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0 has no end: give until_strain, until_packing_fraction, "
+     "until_packing_fraction_undeformed or until_stress"},
+    {"[[loading]]\nuntil_strain = 0.1\n",
+     "s.toml:1:1: loading.0 has no speed: give strain_rate or inertial_number"},
+    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\ninertial_number = 1e-3\n",
+     "s.toml:4:19: loading.0 has both strain_rate and inertial_number: remove one"},
+    {"[[loading]]\nuntil_strain = 1.0\nstrain_rate = 1\n",
+     "s.toml:2:16: loading.0.until_strain must be > 0 and < 1, got 1"},
+    {"[[loading]]\nkind = \"oedometric\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0.wall must be given for an oedometric stage: left, right, bottom or top"},
+    {"[[loading]]\nkind = \"oedometric\"\nwall = \"topp\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
+     "s.toml:3:8: loading.0.wall must be one of left, right, bottom, top, got \"topp\" (did you mean "
+     "'top'?)"},
+    {"[[loading]]\nwall = \"top\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
+     "s.toml:2:8: loading.0.wall is not for an isotropic stage, all walls move: remove it"},
+    {"[[loading]]\nkind = \"hold\"\n", "s.toml:1:1: loading.0.duration must be given: a hold ends after it"},
+    {"[[loading]]\nkind = \"hold\"\nduration = 1\nstrain_rate = 1\n",
+     "s.toml:4:15: loading.0.strain_rate is not for a hold, whose walls stand still: remove it"},
+    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\nduration = 1\n",
+     "s.toml:4:12: loading.0.duration is for a hold only: use an until_... key"},
+    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nuntil_stress = 0\nstrain_rate = 1\n",
+     "s.toml:5:16: loading.1.until_stress must be > 0, got 0"},
+};
+
+const std::vector<Case> packings{
+    in("[packing]\nradius_min = 1.1",
+       "s.toml:2:14: packing.radius_min must be at most radius_mean = 1, got 1.1"),
+    in("[packing]\nradius_mean = 2",
+       "s.toml:2:15: packing.radius_mean must be at most radius_max = 1.333, got 2"),
+    in("[packing]\nradius_max = 0.9",
+       "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
+    in("[packing]\nsize_law = \"fractal\"\nradius_min = 2.0\nradius_max = 1.0",
+       "s.toml:4:14: packing.radius_max must be at least radius_min = 2, got 1"),
+    in("[packing]\nsize_law = \"fractal\"\nradius_min = 1e-6\nradius_max = 1.0",
+       "s.toml:4:14: packing.radius_max must be at most 1000 times radius_min"),
+    in("[packing]\npacking_fraction = 1.0",
+       "s.toml:2:20: packing.packing_fraction must be > 0 and < 1, got 1"),
+    in("[box]\nwidth = 1.0", "s.toml:2:9: box.width needs box.height too"),
+    in("[box]\nwidth = 1.0\nheight = 101",
+       "s.toml:3:10: box.height must be within a factor of 100 of box.width"),
+    in("[packing]\npath = \"\"\n[box]\nwidth = 1\nheight = 1", "s.toml:2:8: packing.path must not be empty"),
+    in("[packing]\npath = \"/nowhere/p.csv\"\n[box]\nwidth = 1\nheight = 1",
+       "s.toml:2:8: packing.path names a file that is not there: '/nowhere/p.csv'"),
+};
+
+void expect_messages(const std::vector<Case>& cases) {
+    for (const Case& c : cases) EXPECT_EQ(error_of(c.text), c.message) << "in:\n" << c.text;
+}
+
+TEST(ScenarioErrors, Values) {
+    expect_messages(values);
+}
+TEST(ScenarioErrors, Names) {
+    expect_messages(names);
+}
+TEST(ScenarioErrors, Stages) {
+    expect_messages(stages);
+}
+TEST(ScenarioErrors, Packings) {
+    expect_messages(packings);
+}
+
+TEST(ScenarioErrors, PackingFileExcludesTheGeneratorAndNeedsABox) {
+    const std::string file = std::string(SOFTGRAIN_TEST_DATA) + "/scenario/three.csv";
+    EXPECT_EQ(error_of("[packing]\ncount = 3\npath = \"" + file + "\"\n" + std::string(stage)),
+              "s.toml:2:9: packing.count has no effect on a packing read from packing.path: remove one\n"
+              "s.toml:3:8: packing.path needs the size of its box: give box.width and box.height");
+}
+
+TEST(ScenarioErrors, AllOfAFileInOrderOfPosition) {
+    EXPECT_EQ(error_of("[sampling]\nframe_every = 0\n[material]\nfriction = -1\ndensty = 2\n[[loading]]\n"
+                       "strain_rate = 0\nuntil_strain = 2\n"),
+              "s.toml:2:15: sampling.frame_every must be >= 1 and <= 1000000000, got 0\n"
+              "s.toml:4:12: material.friction must be >= 0, got -1\n"
+              "s.toml:5:1: unknown key 'material.densty', did you mean 'density'?\n"
+              "s.toml:7:15: loading.0.strain_rate must be > 0, got 0\n"
+              "s.toml:8:16: loading.0.until_strain must be > 0 and < 1, got 2");
+}
+
+TEST(ScenarioErrors, AWrongValueDoesNotCauseASecondError) {
+    // radius_mean = "a" stays at its default 1 < radius_min, which must not be reported.
+    EXPECT_EQ(
+        error_of("[packing]\nradius_mean = \"a\"\nradius_min = 4.0\nradius_max = 5.0\n" + std::string(stage)),
+        "s.toml:2:15: packing.radius_mean must be a number, got the text \"a\"");
+}
+
+TEST(ScenarioErrors, LongAndBrokenTextIsShownShortAndOnOneLine) {
+    const std::string message = error_of("[material]\ndensity = \"\"\"a\nb" + std::string(1000, 'x') +
+                                         "\"\"\"\n" + std::string(stage));
+    EXPECT_EQ(message.find('\n'), message.npos);
+    EXPECT_LT(message.size(), 200U);
+    EXPECT_NE(message.find("a bxxx"), message.npos) << message;
+}
+
+TEST(ScenarioErrors, FileThatIsNotThereOrNoFile) {
+    const auto message = [](const std::filesystem::path& path) {
+        try {
+            read_scenario(path, {}, methods());
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(message("/nowhere/s.toml"), "/nowhere/s.toml: there is no such scenario file");
+    EXPECT_EQ(message("/tmp"), "/tmp: cannot be read as a scenario file");
+    EXPECT_EQ(message("/dev/zero"), "/dev/zero: a scenario has at most 1048576 bytes");
+}
+
+}  // namespace
+}  // namespace softgrain::test

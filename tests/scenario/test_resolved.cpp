@@ -1,0 +1,156 @@
+// Defaults, the resolved scenario, and the list of keys.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scenario/support.hpp"
+
+namespace softgrain::test {
+namespace {
+
+void expect_same(const LoadingStage& a, const LoadingStage& b) {
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.wall, b.wall);
+    EXPECT_EQ(a.until_strain, b.until_strain);
+    EXPECT_EQ(a.until_packing_fraction, b.until_packing_fraction);
+    EXPECT_EQ(a.until_packing_fraction_undeformed, b.until_packing_fraction_undeformed);
+    EXPECT_EQ(a.until_stress, b.until_stress);
+    EXPECT_EQ(a.duration, b.duration);
+    EXPECT_EQ(a.strain_rate, b.strain_rate);
+    EXPECT_EQ(a.inertial_number, b.inertial_number);
+}
+
+void expect_same(const PackingSpec& a, const PackingSpec& b) {
+    EXPECT_EQ(a.path, b.path);
+    EXPECT_EQ(a.size_law, b.size_law);
+    EXPECT_EQ(a.count, b.count);
+    EXPECT_EQ(a.radius_mean, b.radius_mean);
+    EXPECT_EQ(a.radius_deviation, b.radius_deviation);
+    EXPECT_EQ(a.radius_min, b.radius_min);
+    EXPECT_EQ(a.radius_max, b.radius_max);
+    EXPECT_EQ(a.fractal_dimension, b.fractal_dimension);
+    EXPECT_EQ(a.packing_fraction, b.packing_fraction);
+}
+
+void expect_same(const Scenario& a, const Scenario& b) {
+    EXPECT_EQ(a.title, b.title);
+    EXPECT_EQ(a.seed, b.seed);
+    EXPECT_EQ(a.material.youngs_modulus, b.material.youngs_modulus);
+    EXPECT_EQ(a.material.poisson_ratio, b.material.poisson_ratio);
+    EXPECT_EQ(a.material.density, b.material.density);
+    EXPECT_EQ(a.material.friction, b.material.friction);
+    expect_same(a.packing, b.packing);
+    EXPECT_EQ(a.box.width, b.box.width);
+    EXPECT_EQ(a.box.height, b.box.height);
+    ASSERT_EQ(a.loading.size(), b.loading.size());
+    for (std::size_t k = 0; k < a.loading.size(); ++k) expect_same(a.loading[k], b.loading[k]);
+    EXPECT_EQ(a.sampling.strain_interval, b.sampling.strain_interval);
+    EXPECT_EQ(a.sampling.average_window, b.sampling.average_window);
+    EXPECT_EQ(a.sampling.frame_every, b.sampling.frame_every);
+    EXPECT_EQ(a.sampling.outlines, b.sampling.outlines);
+    EXPECT_EQ(a.sampling.contacts, b.sampling.contacts);
+    ASSERT_EQ(a.method_settings.size(), b.method_settings.size());
+    for (const auto& [name, settings] : a.method_settings)
+        EXPECT_EQ(settings.values(), b.method_settings.at(name).values()) << name;
+}
+
+TEST(Resolved, EveryDefaultIsThatOfThePlainData) {
+    Scenario expected;
+    expected.loading.resize(1);
+    expected.loading[0].until_strain = 0.1;
+    expected.loading[0].strain_rate = 1e-3;
+    for (const MethodKeys& method : methods())
+        expected.method_settings.emplace(method.name, Settings(method.keys));
+    expect_same(parse(stage), expected);
+}
+
+TEST(Resolved, IntegersAreReadWhereNumbersAreExpected) {
+    EXPECT_EQ(parse("[material]\nyoungs_modulus = 3\n" + std::string(stage)).material.youngs_modulus, 3.0);
+}
+
+TEST(Resolved, ReadingTheWrittenScenarioGivesTheSame) {
+    const std::string text = R"(title = "\"quoted\" \\ tab\t caf\u00e9"
+random.seed = 9223372036854775807
+[material]
+youngs_modulus = 1.2345678901234567e9
+poisson_ratio = 0.1
+density = 1e-300
+friction = 0.3
+[packing]
+size_law = "fractal"
+count = 77
+radius_mean = 0.012
+radius_deviation = 0.0024
+radius_min = 0.004
+radius_max = 0.038
+fractal_dimension = 1.7
+packing_fraction = 0.6
+[box]
+width = 2
+height = 0.30000000000000004
+[[loading]]
+until_packing_fraction = 0.95
+until_stress = 1e20
+inertial_number = 3e-4
+[[loading]]
+kind = "hold"
+duration = 12.5
+[[loading]]
+kind = "oedometric"
+wall = "top"
+until_strain = 0.2
+until_packing_fraction_undeformed = 1.2
+strain_rate = 0.001
+[sampling]
+strain_interval = 0.01
+average_window = 0.0
+frame_every = 3
+outlines = false
+contacts = false
+[spring]
+law = "hertz"
+damping = 0
+iterations = 7
+rolling = false
+cutoff = 0.1
+)";
+    const Scenario first = parse(text);
+    EXPECT_EQ(first.title, "\"quoted\" \\ tab\t caf\u00e9");
+    EXPECT_EQ(first.loading.at(2).wall, Wall::top);
+    const std::string written = write_scenario(first, methods());
+    expect_same(parse(written), first);
+    EXPECT_EQ(write_scenario(parse(written), methods()), written);
+}
+
+TEST(Resolved, APackingFileStaysTheSameFileFromAnotherFolder) {
+    const auto file = std::filesystem::path(SOFTGRAIN_TEST_DATA) / "scenario" / "three.csv";
+    const std::string text =
+        "[packing]\npath = \"three.csv\"\n[box]\nwidth = 4.0\nheight = 4.0\n" + std::string(stage);
+    const Scenario first = parse_scenario(text, file.parent_path() / "s.toml", {}, methods());
+    const Scenario again =
+        parse_scenario(write_scenario(first, methods()), "elsewhere/s.toml", {}, methods());
+    expect_same(again, first);
+    EXPECT_EQ(again.packing.path, file);
+}
+
+TEST(Resolved, ReadsFromAFile) {
+    const auto path = std::filesystem::temp_directory_path() / "softgrain_test_scenario.toml";
+    std::ofstream(path) << stage;
+    const std::vector<std::string> overrides{"material.density=5"};
+    const Scenario s = read_scenario(path, overrides, methods());
+    std::filesystem::remove(path);
+    EXPECT_EQ(s.material.density, 5.0);
+    EXPECT_EQ(s.source, path);
+}
+
+TEST(Resolved, TheListOfKeysNamesEveryKey) {
+    const std::string list = describe_keys(methods());
+    for (const char* line :
+         {"[material]", "[[loading]]", "[spring]", "youngs_modulus", "until_packing_fraction_undeformed",
+          "fractal_dimension", "linear, hertz", ">= 0 and <= 0.5", "average_window", "cutoff"})
+        EXPECT_NE(list.find(line), list.npos) << line;
+}
+
+}  // namespace
+}  // namespace softgrain::test

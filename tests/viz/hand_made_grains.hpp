@@ -1,0 +1,53 @@
+#pragma once
+// A state of grains made by hand, so that writers and pictures can be tested without a solver.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/grain_view.hpp"
+#include "common/observer.hpp"
+
+namespace softgrain {
+
+/// n x n grains on a grid with `strain` of isotropic compression from a box of 1 m: rounder at the start,
+/// squarer later. Neighbours and walls are in contact; forces vary by grain. Every fourth outline is concave.
+class HandMadeGrains {
+  public:
+    HandMadeGrains(int n, double strain, double time);
+    GrainView view() const;
+    double packing_fraction() const;
+    double mean_stress() const;
+
+    double time;
+    Box box;
+    std::vector<Vec2> centroid, velocity, outline_point;
+    std::vector<double> mass, reference_area, area, temperature, stretch;
+    std::vector<Mat2> stress;
+    std::vector<int> outline_offset;
+    std::vector<GrainContact> contacts;
+    std::array<Vec2, 4> wall_force;
+
+  private:
+    void add_grain(int row, int column, double spacing);
+    void add_contacts(int n);
+};
+
+/// Writes `frames` frames with all three writers, and history.csv with two rows per frame.
+void write_hand_made_run(const std::filesystem::path& directory, int n, int frames);
+
+Sample frame_sample(int frame);
+
+/// A folder that is removed with the object.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace softgrain
