@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "app/comparison_table.hpp"
@@ -59,8 +60,9 @@ PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResul
         series.label = name;
         series.x = history.column("packing_fraction");
         series.y = history.column(column);
-        if (logarithmic)
-            for (double& y : series.y) y = y > 0.0 ? y : std::nan("");
+        const double largest = *std::max_element(series.y.begin(), series.y.end());
+        if (logarithmic)  // rounding before the first contact is no stress
+            for (double& y : series.y) y = y > 1e-4 * largest ? y : std::nan("");
         plot.series.push_back(std::move(series));
     };
     for (const MethodResult& result : results)
@@ -94,7 +96,8 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
         frames.runs.push_back({result.report.method, request.folder / result.report.method});
     }
     if (frames.runs.empty()) return;
-    frames.at_packing_fraction = {low, 0.5 * (low + high), high};
+    for (const double phi : {low, 0.5 * (low + high), high})
+        frames.at_packing_fraction.push_back(std::round(100.0 * phi) / 100.0);
     frames.out = request.folder / "pictures";
     complain(render_frames(frames));
 }

@@ -11,6 +11,7 @@
 #include "app/process.hpp"
 #include "app/run_folder.hpp"
 #include "common/errors.hpp"
+#include "common/io/history_csv.hpp"
 #include "common/observables/observable.hpp"
 #include "common/packing/make_packing.hpp"
 #include "version.hpp"

@@ -1,0 +1,247 @@
+// The program as its users run it: exit codes, messages, files, stopping and going on.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "common/io/history_csv.hpp"
+#include "common/io/run_file.hpp"
+
+namespace softgrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exit_code;
+    std::string out, err;
+};
+
+std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+class CommandLine : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder = fs::path(::testing::TempDir()) /
+                 ("softgrain_cli_" + std::to_string(::getpid()) + "_" +
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    /// Starts softgrain with these arguments; both outputs go to files.
+    pid_t start(std::vector<std::string> arguments) const {
+        const pid_t child = ::fork();
+        if (child != 0) return child;
+        const auto redirect = [](const fs::path& to, int descriptor) {
+            ::dup2(::open(to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), descriptor);
+        };
+        redirect(folder / "out.txt", STDOUT_FILENO);
+        redirect(folder / "err.txt", STDERR_FILENO);
+        arguments.insert(arguments.begin(), SOFTGRAIN_EXECUTABLE);
+        std::vector<char*> argv;
+        for (std::string& a : arguments) argv.push_back(a.data());
+        argv.push_back(nullptr);
+        ::execv(argv[0], argv.data());
+        ::_exit(127);
+    }
+    Outcome wait_for(pid_t child) const {
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+        return {code, content(folder / "out.txt"), content(folder / "err.txt")};
+    }
+    Outcome softgrain(const std::vector<std::string>& arguments) const { return wait_for(start(arguments)); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    }
+    /// Six grains, a few seconds at most; `more` is added at the end.
+    fs::path small_scenario(const std::string& rate = "2e-2", const std::string& more = "") const {
+        return write("small.toml",
+                     "title = \"small\"\n[packing]\nsize_law = \"single\"\ncount = 6\nradius_mean = 1.0\n"
+                     "[[loading]]\nkind = \"isotropic\"\nuntil_strain = 0.02\nstrain_rate = " +
+                         rate +
+                         "\n[sampling]\nstrain_interval = 0.004\nframe_every = 2\n[bpm]\n"
+                         "discs_per_grain = 30\n" +
+                         more);
+    }
+
+    fs::path folder;
+};
+
+TEST_F(CommandLine, HelpAndVersionAndList) {
+    for (const std::string command : {"run", "compare", "validate", "list", "info"}) {
+        const Outcome help = softgrain({command, "--help"});
+        EXPECT_EQ(help.exit_code, 0) << command;
+        EXPECT_NE(help.out.find("Example:"), std::string::npos) << command;
+    }
+    EXPECT_EQ(softgrain({"--version"}).out.rfind("softgrain ", 0), 0U);
+    const Outcome list = softgrain({"list"});
+    for (const char* word : {"sdem", "bpm", "rigid_dem", "energy_residual"})
+        EXPECT_NE(list.out.find(word), std::string::npos) << word;
+    EXPECT_NE(softgrain({"list", "--keys"}).out.find("youngs_modulus"), std::string::npos);
+}
+
+TEST_F(CommandLine, BadInputIsExitTwoWithThePlace) {
+    const fs::path bad = write("bad.toml",
+                               "[material]\nyoungs_modulus = -1\npoison_ratio = 0.3\n[[loading]]\n"
+                               "kind = \"isotropic\"\nstrain_rate = 1\nuntil_strain = 0.1\n");
+    const Outcome validate = softgrain({"validate", bad.string()});
+    EXPECT_EQ(validate.exit_code, 2);
+    EXPECT_NE(validate.err.find("bad.toml:2:"), std::string::npos) << validate.err;
+    EXPECT_NE(validate.err.find("bad.toml:3:1"), std::string::npos) << "all errors in one go\n"
+                                                                    << validate.err;
+    EXPECT_NE(validate.err.find("poisson_ratio"), std::string::npos) << "with a suggestion";
+    EXPECT_EQ(softgrain({"validate", "nowhere.toml"}).exit_code, 2);
+    EXPECT_EQ(softgrain({"run", small_scenario().string()}).exit_code, 2) << "--method and --out are missing";
+    const Outcome method =
+        softgrain({"run", small_scenario().string(), "--method", "fem", "--out", (folder / "x").string()});
+    EXPECT_EQ(method.exit_code, 2);
+    EXPECT_NE(method.err.find("sdem, bpm, rigid_dem"), std::string::npos);
+    EXPECT_EQ(softgrain({"info", folder.string()}).exit_code, 2);
+}
+
+TEST_F(CommandLine, ARunLeavesItsFilesAndIsNotOverwritten) {
+    for (const std::string method : {"sdem", "bpm", "rigid_dem"}) {
+        const fs::path out = folder / method;
+        const std::vector<std::string> command{
+            "run", small_scenario().string(), "--method", method, "--out", out.string()};
+        const Outcome run = softgrain(command);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        for (const char* name : {"history.csv", "run.h5", "run.json", "scenario.toml", "grains.pvd",
+                                 "contacts.pvd", "walls.pvd"})
+            EXPECT_TRUE(fs::exists(out / name)) << name;
+        const History history = read_history(out / "history.csv");
+        EXPECT_EQ(history.rows(), 6U);
+        EXPECT_EQ(read_run_file(out / "run.h5").state.history.size(), 6U);
+        EXPECT_EQ(softgrain({"validate", (out / "scenario.toml").string()}).exit_code, 0)
+            << "the resolved scenario";
+        EXPECT_EQ(softgrain({"info", out.string()}).exit_code, 0);
+
+        const std::string before = content(out / "run.json");
+        const Outcome again = softgrain(command);
+        EXPECT_EQ(again.exit_code, 2);
+        EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
+        EXPECT_EQ(content(out / "run.json"), before);
+        auto forced = command;
+        forced.emplace_back("--force");
+        EXPECT_EQ(softgrain(forced).exit_code, 0);
+    }
+}
+
+/// Stopped by SIGTERM or SIGINT at some moment, gone on with --resume: the same bits as a run that was left
+/// alone.
+TEST_F(CommandLine, StoppedAndResumedEndsWithTheSameBits) {
+    for (const std::string method : {"sdem", "bpm", "rigid_dem"}) {
+        const std::string rate = method == "bpm" ? "4e-4" : "1e-5";
+        const std::vector<std::string> base{"run", small_scenario(rate).string(), "--method", method};
+        const auto into = [&](const std::string& name, bool resume) {
+            auto command = base;
+            command.insert(command.end(), {"--out", (folder / name).string()});
+            if (resume) command.emplace_back("--resume");
+            return command;
+        };
+        const std::string straight = method + "_straight";
+        const std::string broken = method + "_broken";
+        ASSERT_EQ(softgrain(into(straight, false)).exit_code, 0);
+
+        int stops = 0;
+        for (const int signal : {SIGTERM, SIGINT}) {
+            const pid_t child = start(into(broken, stops > 0));
+            std::this_thread::sleep_for(std::chrono::milliseconds(120));
+            ::kill(child, signal);
+            const Outcome stopped = wait_for(child);
+            if (stopped.exit_code == 0) break;  // it was done before the signal came
+            ASSERT_EQ(stopped.exit_code, 128 + signal) << stopped.err;
+            ++stops;
+        }
+        EXPECT_GT(stops, 0) << method << ": too fast to be stopped, the test shows nothing";
+        ASSERT_EQ(softgrain(into(broken, true)).exit_code, 0);
+
+        EXPECT_EQ(content(folder / broken / "history.csv"), content(folder / straight / "history.csv"))
+            << method;
+        const RunFile a = read_run_file(folder / straight / "run.h5");
+        const RunFile b = read_run_file(folder / broken / "run.h5");
+        EXPECT_EQ(a.solver.numbers, b.solver.numbers) << method;
+        EXPECT_EQ(a.solver.integers, b.solver.integers) << method;
+        for (const char* series : {"grains", "contacts", "walls"}) {
+            EXPECT_EQ(content(folder / broken / (std::string(series) + ".pvd")),
+                      content(folder / straight / (std::string(series) + ".pvd")));
+            for (const auto& frame : fs::directory_iterator(folder / straight / series))
+                EXPECT_EQ(content(folder / broken / series / frame.path().filename()), content(frame.path()))
+                    << frame.path();
+        }
+    }
+}
+
+TEST_F(CommandLine, ResumeOfAnotherScenarioIsRefused) {
+    const fs::path scenario = small_scenario();
+    const std::string out = (folder / "run").string();
+    ASSERT_EQ(softgrain({"run", scenario.string(), "--method", "sdem", "--out", out}).exit_code, 0);
+    const Outcome other = softgrain({"run", scenario.string(), "--method", "sdem", "--out", out, "--resume",
+                                     "--set", "material.poisson_ratio=0.2"});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_NE(other.err.find("scenario"), std::string::npos);
+}
+
+/// A time step far above the limit, forced by a safety factor that the schema still allows, must not end in
+/// silence.
+TEST_F(CommandLine, DivergenceIsExitThreeAndNamesTheGrain) {
+    const fs::path scenario = small_scenario("50.0");
+    const Outcome run =
+        softgrain({"run", scenario.string(), "--method", "rigid_dem", "--out", (folder / "d").string(),
+                   "--set", "rigid_dem.overlap_limit=1e9", "--set", "loading.0.until_strain=0.9"});
+    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+    EXPECT_NE((run.out + run.err).find("grain"), std::string::npos);
+    EXPECT_EQ(content(folder / "d" / "history.csv").find("nan"), std::string::npos);
+}
+
+TEST_F(CommandLine, AFolderThatCannotBeWrittenIsExitFour) {
+    write("file", "not a folder");
+    const Outcome run = softgrain(
+        {"run", small_scenario().string(), "--method", "sdem", "--out", (folder / "file/x").string()});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_NE(run.err.find("file/x"), std::string::npos);
+}
+
+TEST_F(CommandLine, CompareRunsEveryMethodFromOnePacking) {
+    const std::string out = (folder / "comparison").string();
+    const std::vector<std::string> command{"compare", small_scenario().string(), "--out", out,
+                                           "--no-pictures"};
+    const Outcome first = softgrain(command);
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    for (const char* word : {"| sdem", "| bpm", "| rigid_dem", "mean stress", "CPU time"})
+        EXPECT_NE(first.out.find(word), std::string::npos) << word;
+    std::vector<double> strain;
+    for (const char* method : {"sdem", "bpm", "rigid_dem"}) {
+        const History h = read_history(fs::path(out) / method / "history.csv");
+        if (strain.empty()) strain = h.column("axial_strain");
+        ASSERT_EQ(h.rows(), strain.size());
+        for (std::size_t k = 0; k < strain.size(); ++k)
+            EXPECT_NEAR(h.column("axial_strain")[k], strain[k], 1e-9);
+    }
+    // Everything is there already: --resume only makes the table again.
+    auto again = command;
+    again.emplace_back("--resume");
+    const Outcome second = softgrain(again);
+    EXPECT_EQ(second.exit_code, 0);
+    EXPECT_EQ(second.out, first.out);
+    EXPECT_EQ(softgrain(command).exit_code, 2) << "results are not overwritten without --force";
+}
+
+}  // namespace
+}  // namespace softgrain

@@ -1,0 +1,102 @@
+#include "tests/contract/scenes.hpp"
+
+#include <cmath>
+
+namespace softgrain::testing {
+
+const std::vector<Bands>& all_bands() {
+    static const std::vector<Bands> table{
+        // Elastic discs: rounding only, but for the damped approach to rest.
+        {"sdem", 0.0, 1e-9, 0.02, 1e-9, 400.0},
+        // Aggregates: solved to 1e-4 disc diameters, so images differ by that; stick-slip never quite comes
+        // to rest.
+        {"bpm", 1e-3, 5e-2, 0.15, 0.15, 60.0},
+        {"rigid_dem", 0.0, 1e-9, 0.02, 5e-3, 400.0},
+    };
+    return table;
+}
+
+void PrintTo(const Bands& bands, std::ostream* out) {
+    *out << bands.method;
+}
+
+Scenario scenario_of(const std::string& method, const std::string& extra) {
+    const std::string text =
+        "title = \"contract\"\n[[loading]]\nkind = \"isotropic\"\nstrain_rate = 1e-3\nuntil_strain = 0.1\n"
+        "[bpm]\ndiscs_per_grain = 40\n" +
+        extra;
+    return scenario_for(parse_scenario(text, "contract.toml", {}, method_keys()), find_method(method));
+}
+
+Packing nine_grains() {
+    Packing p;
+    p.box.position = {0.0, 6.6, 0.0, 6.6};
+    const double jitter[] = {0.03, -0.05, 0.08, -0.02, 0.06, -0.07, 0.01, 0.04, -0.03};
+    for (int k = 0; k < 9; ++k) {
+        p.center.emplace_back(1.1 + 2.2 * (k % 3) + jitter[k], 1.1 + 2.2 * (k / 3) - jitter[(k + 4) % 9]);
+        p.radius.push_back(k % 2 == 0 ? 1.0 : 0.9);
+    }
+    return p;
+}
+
+Packing square_lattice(int side) {
+    Packing p;
+    p.box.position = {0.0, 2.0 * side, 0.0, 2.0 * side};
+    for (int k = 0; k < side * side; ++k) {
+        p.center.emplace_back(1.0 + 2.0 * (k % side), 1.0 + 2.0 * (k / side));
+        p.radius.push_back(1.0);
+    }
+    return p;
+}
+
+Packing image_of(const Packing& packing, const Mat2& image) {
+    Packing turned = packing;
+    const Vec2 middle{0.5 * (packing.box.position[0] + packing.box.position[1]),
+                      0.5 * (packing.box.position[2] + packing.box.position[3])};
+    turned.frame.clear();
+    for (std::size_t g = 0; g < packing.size(); ++g) {
+        turned.center[g] = middle + image * (packing.center[g] - middle);
+        turned.frame.push_back(image * packing.frame_of(g));
+    }
+    return turned;
+}
+
+std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing) {
+    return find_method(bands.method).make(scenario, packing);
+}
+
+namespace {
+
+Box drive(Solver& solver, Box box, const std::array<double, 4>& velocity, double time,
+          const std::function<void(const Box&, double)>& after_step) {
+    for (double done = 0.0; done < time * (1.0 - 1e-12);) {
+        const double left = time - done;
+        const double dt = left / std::max(1.0, std::ceil(left / solver.stable_time_step()));
+        const WallMotion motion{box, velocity};
+        solver.advance(motion, dt);
+        box = motion.after(dt);
+        done += dt;
+        after_step(box, dt);
+    }
+    return box;
+}
+
+}  // namespace
+
+Box squeeze(Solver& solver, Box box, double strain, double time,
+            const std::function<void(const Box&, double)>& after_step) {
+    const double vx = 0.5 * strain * box.width() / time;
+    const double vy = 0.5 * strain * box.height() / time;
+    return drive(solver, box, {vx, -vx, vy, -vy}, time, after_step);
+}
+
+Box push(Solver& solver, Box box, Wall wall, double strain, double time,
+         const std::function<void(const Box&, double)>& after_step) {
+    const int w = static_cast<int>(wall);
+    const double length = wall_axis(w) == 0 ? box.width() : box.height();
+    std::array<double, 4> velocity{};
+    velocity[static_cast<std::size_t>(w)] = wall_sign(w) * strain * length / time;
+    return drive(solver, box, velocity, time, after_step);
+}
+
+}  // namespace softgrain::testing

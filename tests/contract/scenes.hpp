@@ -1,0 +1,54 @@
+#pragma once
+// Small scenes that every method can run, and what each method is allowed to miss.
+#include <omp.h>
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "app/methods.hpp"
+#include "common/solver.hpp"
+
+namespace softgrain::testing {
+
+/// Bands of one method, with the reason beside each in scenes.cpp.
+struct Bands {
+    std::string method;
+    double at_rest;       ///< largest drift of a free grain [mean radius]
+    double symmetry;      ///< relative difference between a scene and its image
+    double equilibrium;   ///< relative difference between wall and Love-Weber stress at rest
+    double ledger;        ///< energy residual / external work
+    double loading_time;  ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
+};
+
+const std::vector<Bands>& all_bands();
+void PrintTo(const Bands& bands, std::ostream* out);
+
+/// Defaults of the scenario file with these lines added (may be empty).
+Scenario scenario_of(const std::string& method, const std::string& extra = "");
+
+/// Nine grains of two sizes on a jittered square lattice, just apart, in a square box.
+Packing nine_grains();
+
+/// `side` x `side` equal grains on a square lattice, touching: enough contacts to make the threads work.
+Packing square_lattice(int side);
+
+/// The packing turned by 90 degrees or mirrored about the box's middle: x' = middle + image (x - middle).
+Packing image_of(const Packing& packing, const Mat2& image);
+
+std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing);
+
+/// All four walls close in by `strain` of the box during `time`; `after_step` sees the walls at the end of
+/// each step.
+Box squeeze(
+    Solver& solver, Box box, double strain, double time,
+    const std::function<void(const Box&, double dt)>& after_step = [](const Box&, double) {});
+
+/// One wall moves in by `strain` of the box.
+Box push(
+    Solver& solver, Box box, Wall wall, double strain, double time,
+    const std::function<void(const Box&, double dt)>& after_step = [](const Box&, double) {});
+
+}  // namespace softgrain::testing
