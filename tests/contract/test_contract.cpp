@@ -24,7 +24,7 @@ class Contract : public ::testing::TestWithParam<Bands> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, Contract, ::testing::ValuesIn(all_bands()),
-                         [](const auto& info) { return info.param.method; });
+                         [](const auto& instance) { return instance.param.method; });
 
 TEST(ContractTable, HasABandForEveryMethod) {
     ASSERT_EQ(all_bands().size(), methods().size());
@@ -204,7 +204,9 @@ TEST_P(Contract, TheViewIsConsistent) {
         const GrainContact& c = view.contacts[k];
         EXPECT_NEAR(c.normal.norm(), 1.0, 1e-12);
         EXPECT_TRUE(c.with_wall() || c.j > c.i);
-        if (k > 0) EXPECT_LT(std::pair(view.contacts[k - 1].i, view.contacts[k - 1].j), std::pair(c.i, c.j));
+        if (k > 0) {
+            EXPECT_LT(std::pair(view.contacts[k - 1].i, view.contacts[k - 1].j), std::pair(c.i, c.j));
+        }
         if (c.with_wall()) on_wall[static_cast<std::size_t>(c.wall())] -= c.force;
         force_scale = std::max(force_scale, c.force.norm());
     }
