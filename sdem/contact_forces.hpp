@@ -11,9 +11,9 @@ namespace softgrain::sdem {
 
 /// One grain's side of a contact.
 struct Side {
-    Vec2 arm;         ///< X = F^-1 (point - c) [m], in the reference disc
-    double cap;       ///< S [m^2]
-    double tan_half;  ///< tan(psi/2) of the cap
+    Vec2 arm;    ///< X = F^-1 (point - c) [m], in the reference disc
+    double cap;  ///< S [m^2]
+    double psi;  ///< half opening angle of the cap
 };
 
 /// A pair of the neighbour list.
@@ -67,8 +67,8 @@ inline PairContact pair_contact(const Moving& i, const Moving& j, const Mollon20
     c.normal = chord.normal;
     c.point = chord.point;
     c.length = chord.length;
-    c.i = {reference_arm(i.shape, chord.point), chord.cap_i, chord.tan_i};
-    c.j = {reference_arm(j.shape, chord.point), chord.cap_j, chord.tan_j};
+    c.i = {reference_arm(i.shape, chord.point), chord.cap_i, chord.psi_i};
+    c.j = {reference_arm(j.shape, chord.point), chord.cap_j, chord.psi_j};
     // Material points at the chord's mid-point; delta_n is minus half of the overlap (Eq. 54).
     const Vec2 separation_rate = j.velocity + j.F_rate * c.j.arm - i.velocity - i.F_rate * c.i.arm;
     const double delta_n = -0.5 * (chord.depth_i + chord.depth_j);
@@ -82,7 +82,7 @@ inline WallContact wall_contact(const Moving& g, const WallChord& chord, const V
     WallContact c;
     c.point = chord.point;
     c.length = chord.length;
-    c.grain = {reference_arm(g.shape, chord.point), chord.cap, chord.tan_half};
+    c.grain = {reference_arm(g.shape, chord.point), chord.cap, chord.psi};
     // At a wall delta_n is the full depth.
     const double delta_rate = inward.dot(g.velocity + g.F_rate * c.grain.arm - wall_velocity);
     c.force = law.normal_force(c.length, -chord.depth, delta_rate, g.mass);
@@ -90,8 +90,7 @@ inline WallContact wall_contact(const Moving& g, const WallChord& chord, const V
 }
 
 /// Adds one contact: `push` unit vector along which N acts on the grain.
-inline void add_contact(GrainForces& sum, const NormalForce& N, const Vec2& push, const Side& side,
-                        bool with_cover) {
+inline void add_contact(GrainForces& sum, const NormalForce& N, const Vec2& push, const Side& side) {
     const Vec2 f = N.total * push;
     const Vec2 damping = N.damping * push;
     sum.force += f;
@@ -99,7 +98,7 @@ inline void add_contact(GrainForces& sum, const NormalForce& N, const Vec2& push
     sum.moment.noalias() += f * side.arm.transpose();
     sum.damping_moment.noalias() += damping * side.arm.transpose();
     sum.caps += side.cap;
-    if (with_cover) sum.covered += 2.0 * std::numbers::inv_pi * std::atan(side.tan_half);
+    sum.covered += std::numbers::inv_pi * side.psi;
 }
 
 }  // namespace softgrain::sdem

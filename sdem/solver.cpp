@@ -21,8 +21,9 @@ double contraction(const Mat2& a, const Mat2& b) {
     return a.cwiseProduct(b).sum();
 }
 
-/// sum S / (pi R^2) with overlapping caps not counted: once caps cover more than the whole outline, sums of
-/// caps grow faster than the area they are to give back and Eq. 68 has no solution. Caps scale as psi^3.
+/// sum S / (pi R^2). Once caps cover more than the whole outline they overlap: the sum counts areas twice,
+/// grows faster than the area it is to be weighed against, and Eq. 41 and 68 run away. Scaled back by (pi/sum
+/// psi)^3, as caps go with psi^3, each outline is counted once.
 double cap_fraction(const GrainForces& sum, double reference_area) {
     const double covered = std::max(1.0, sum.covered);
     return sum.caps / (reference_area * covered * covered * covered);
@@ -216,20 +217,21 @@ void SoftDiscSolver::evaluate_forces() {
                 wall_axis(w) == 0 ? Vec2{wall_velocity_[wall], 0.0} : Vec2{0.0, wall_velocity_[wall]};
             c = wall_contact(moving(g), chord, wall_normal(w), wall_velocity, law_);
             wall_mask_[g] = static_cast<std::uint8_t>(wall_mask_[g] | (1U << wall));
-            add_contact(sum, c.force, wall_normal(w), c.grain, options_.incompressible);
+            add_contact(sum, c.force, wall_normal(w), c.grain);
             if (chord.escaped || !(c.force.stiffness > 0.0)) bad = std::min(bad, g);
         }
         for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
             const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
             if (c.overlap == Overlap::none) continue;
             if (entry.second)
-                add_contact(sum, c.force, c.normal, c.j, options_.incompressible);
+                add_contact(sum, c.force, c.normal, c.j);
             else
-                add_contact(sum, c.force, -c.normal, c.i, options_.incompressible);
+                add_contact(sum, c.force, -c.normal, c.i);
         }
         const double R = s.radius[g];
-        const double eps_v = shape_[g].det / (R * R) - sum.caps / s.reference_area[g] - 1.0;  // Eq. 41
-        sum.moment -= s.reference_area[g] * law_.piola(s.F[g], Polar(s.F[g]), eps_v);         // Eq. 42, 43
+        const double eps_v =
+            shape_[g].det / (R * R) - cap_fraction(sum, s.reference_area[g]) - 1.0;    // Eq. 41
+        sum.moment -= s.reference_area[g] * law_.piola(s.F[g], Polar(s.F[g]), eps_v);  // Eq. 42, 43
         // Eq. 62-64 without the spin, which they leave alone.
         const double rate = options_.shape_damping * std::sqrt(law_.E / density_) / R;
         const Mat2 shape_damping = (-rate * s.inertia[g]) * without_spin(s.F[g], s.F_rate[g]);

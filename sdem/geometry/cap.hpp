@@ -4,23 +4,32 @@
 
 namespace softgrain::sdem {
 
-/// psi - sin(psi) cos(psi), the segment's area. Relative accuracy 1e-14 for every q >= 0.
+struct UnitCap {
+    double half_angle;  ///< psi
+    double area;        ///< psi - sin(psi) cos(psi)
+};
+
+/// Relative accuracy 1e-14 for every q >= 0.
 ///
-/// Series: 2 atan q - 2 q (1 - q^2)/(1 + q^2)^2 = 2 sum_n (-1)^n q^(2n+1) [1/(2n+1) - (2n+1)]; the n = 0 term
-/// vanishes, so nothing cancels for small caps.
-inline double unit_cap_area(double q) {
+/// Series: psi = 2 atan q = 2 sum_n (-1)^n q^(2n+1)/(2n+1), and sin(psi) cos(psi) = 2 q (1 - q^2)/(1 + q^2)^2
+/// = 2 sum_n (-1)^n (2n+1) q^(2n+1); the n = 0 terms of the area cancel exactly.
+inline UnitCap unit_cap(double q) {
     const double z = q * q;
     if (z < 0.04) {
-        constexpr auto coefficient = [](int n) {
+        constexpr auto angle = [](int n) { return (n % 2 == 0 ? 2.0 : -2.0) / (2.0 * n + 1.0); };
+        constexpr auto area = [](int n) {
             const double odd = 2.0 * n + 1.0;
             return (n % 2 == 0 ? 2.0 : -2.0) * (1.0 / odd - odd);
         };
-        double sum = coefficient(12);
-        for (int n = 11; n >= 1; --n) sum = sum * z + coefficient(n);
-        return q * z * sum;
+        double angle_sum = angle(12), area_sum = area(12);
+        for (int n = 11; n >= 1; --n) {
+            angle_sum = angle_sum * z + angle(n);
+            area_sum = area_sum * z + area(n);
+        }
+        return {q * (angle_sum * z + angle(0)), q * z * area_sum};
     }
-    const double w = 1.0 + z;
-    return 2.0 * std::atan(q) - 2.0 * q * (1.0 - z) / (w * w);
+    const double w = 1.0 + z, psi = 2.0 * std::atan(q);
+    return {psi, psi - 2.0 * q * (1.0 - z) / (w * w)};
 }
 
 }  // namespace softgrain::sdem

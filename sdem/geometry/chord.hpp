@@ -29,8 +29,7 @@ struct Chord {
     double length = 0.0;                  ///< L_c [m]
     double depth_i = 0.0, depth_j = 0.0;  ///< largest distance of each outline beyond the chord [m]
     double cap_i = 0.0, cap_j = 0.0;      ///< area of each ellipse beyond the chord [m^2]
-    double tan_i = 0.0,
-           tan_j = 0.0;  ///< tan(psi/2), psi the half opening angle of each cap in its unit frame
+    double psi_i = 0.0, psi_j = 0.0;      ///< half opening angle of each cap in its unit frame
 
     bool touching() const { return overlap == Overlap::chord || overlap == Overlap::four_points; }
 };
@@ -106,7 +105,7 @@ inline bool find_deepest(const Level& g, Unit& u) {
 /// Newton on g from a first guess at half opening angle asin(limit/0.5). Steps are clamped: without that,
 /// tiny overlaps swap the two roots.
 inline bool find_root(const Level& g, Unit& u, double limit) {
-    const double settled = 2e-6 * limit + 1e-15 / limit;
+    const double settled = 2e-7 * limit + 1e-15 / limit;
     for (int k = 0; k < 20; ++k) {
         const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
         const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;
@@ -144,16 +143,18 @@ inline Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, 
     const double cos_j = (ty * mx - tx * my) / two_h_j;
     const double cos_i = (sx * py - sy * px) / two_h_i;
     const double h_j = 0.5 * two_h_j, h_i = 0.5 * two_h_i;
-    c.tan_j = h_j / (1.0 + cos_j);
-    c.tan_i = h_i / (1.0 + cos_i);
+    const double tan_j = h_j / (1.0 + cos_j), tan_i = h_i / (1.0 + cos_i);
     const auto support = [&](const Mat2& axes) {
         const double x = axes(0, 0) * nx + axes(1, 0) * ny, y = axes(0, 1) * nx + axes(1, 1) * ny;
         return std::sqrt(x * x + y * y);
     };
-    c.depth_j = support(j.axes) * h_j * c.tan_j;
-    c.depth_i = support(i.axes) * h_i * c.tan_i;
-    c.cap_j = j.det * unit_cap_area(c.tan_j);
-    c.cap_i = i.det * unit_cap_area(c.tan_i);
+    const UnitCap cap_i = unit_cap(tan_i), cap_j = unit_cap(tan_j);
+    c.depth_j = support(j.axes) * h_j * tan_j;
+    c.depth_i = support(i.axes) * h_i * tan_i;
+    c.cap_j = j.det * cap_j.area;
+    c.cap_i = i.det * cap_i.area;
+    c.psi_j = cap_j.half_angle;
+    c.psi_i = cap_i.half_angle;
     return c;
 }
 
@@ -197,7 +198,7 @@ inline Chord chord_of(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
     c.normal = -c.normal;
     std::swap(c.depth_i, c.depth_j);
     std::swap(c.cap_i, c.cap_j);
-    std::swap(c.tan_i, c.tan_j);
+    std::swap(c.psi_i, c.psi_j);
     return c;
 }
 

@@ -10,7 +10,7 @@ namespace softgrain::sdem {
 /// Nodes of the outline at equal steps of the reference angle, counter-clockwise (Eq. 49, 50).
 std::vector<Vec2> outline_nodes(const Ellipse& e, int nodes);
 
-/// Contact of the two N-sided polygons; tan_i and tan_j stay zero. The paper takes 360 nodes.
+/// Contact of the two N-sided polygons; psi_i and psi_j stay zero. The paper takes 360 nodes.
 /// Contacts in which no node of one grain lies in the other are missed.
 Chord polygon_chord(const Ellipse& i, const Ellipse& j, int nodes = 360);
 

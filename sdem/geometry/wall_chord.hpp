@@ -15,7 +15,7 @@ struct WallChord {
     double length = 0.0;        ///< L_c [m]
     double depth = 0.0;         ///< largest distance beyond the wall [m]
     double cap = 0.0;           ///< area beyond the wall [m^2]
-    double tan_half = 0.0;      ///< tan(psi/2), psi the half opening angle in the unit frame
+    double psi = 0.0;           ///< half opening angle in the unit frame
 };
 
 /// `inward` unit normal of the wall into the box, `distance` of the ellipse's centre from it [m].
@@ -33,9 +33,10 @@ inline WallChord wall_chord(const Ellipse& e, const Vec2& inward, double distanc
     const double cosine = distance / support;
     const double versine = c.depth / support;
     const double sine = std::sqrt(versine * (1.0 + cosine));
-    c.tan_half = sine / (1.0 + cosine);
+    const UnitCap cap = unit_cap(sine / (1.0 + cosine));
     c.length = 2.0 * sine * e.det / support;
-    c.cap = e.det * unit_cap_area(c.tan_half);
+    c.cap = e.det * cap.area;
+    c.psi = cap.half_angle;
     const double scale = -cosine / support;
     c.point = Vec2{e.center.x() + scale * (A(0, 0) * sx + A(0, 1) * sy),
                    e.center.y() + scale * (A(1, 0) * sx + A(1, 1) * sy)};
