@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "common/errors.hpp"
 
 namespace softgrain::scenario_io {
+namespace {
+constexpr std::size_t most_shown = 50;
+}  // namespace
 
 void ErrorList::add(const Place& place, std::string_view subject, std::string_view text) {
     const bool named_by_option = !place.option.empty() && place.option == subject;
@@ -24,12 +28,13 @@ void ErrorList::throw_if_any() const {
     std::stable_sort(sorted.begin(), sorted.end(),
                      [&](const Entry& a, const Entry& b) { return position(a) < position(b); });
     std::string all;
-    for (const Entry& e : sorted) {
+    for (const Entry& e : std::span(sorted).first(std::min(sorted.size(), most_shown))) {
         if (!all.empty()) all += '\n';
         all += e.place.option.empty()
                    ? fmt::format("{}:{}:{}: {}", name_, e.place.line, e.place.column, e.text)
                    : fmt::format("--set {}: {}", e.place.option, e.text);
     }
+    if (sorted.size() > most_shown) all += fmt::format("\nand {} more errors", sorted.size() - most_shown);
     throw InputError(all);
 }
 

@@ -101,6 +101,8 @@ void apply(Node& document, std::string_view key, std::string_view value, const P
     const std::vector<std::string_view> parts = split(key);
     if (std::any_of(parts.begin(), parts.end(), [](std::string_view part) { return part.empty(); }))
         return errors.add(place, "", "a key is words joined by points, as material.density");
+    if (parts.size() > 3)
+        return errors.add(place, "", "a key has at most three parts, as loading.0.until_strain");
     const Target target = find_target(document, parts, place);
     if (target.table == nullptr) return errors.add(place, "", target.why);
     std::erase_if(target.table->children, [&](const Node& other) {

@@ -1,6 +1,7 @@
 // Wrong scenarios and the exact message, with line and column, that each must give.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -156,6 +157,14 @@ TEST(ScenarioErrors, AllOfAFileInOrderOfPosition) {
               "s.toml:5:1: unknown key 'material.densty', did you mean 'density'?\n"
               "s.toml:7:15: loading.0.strain_rate must be > 0, got 0\n"
               "s.toml:8:16: loading.0.until_strain must be > 0 and < 1, got 2");
+}
+
+TEST(ScenarioErrors, ManyAreCounted) {
+    std::string text;
+    for (int k = 0; k < 60; ++k) text += "zzzzzzzzzz" + std::to_string(k) + " = 1\n";
+    const std::string message = error_of(text + std::string(stage));
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 50);
+    EXPECT_TRUE(message.ends_with("\nand 10 more errors"));
 }
 
 TEST(ScenarioErrors, AWrongValueDoesNotCauseASecondError) {

@@ -56,8 +56,8 @@ int count_touching(const Packing& p, double reach) {
 }
 
 TEST(Jam, FrictionlessDiscsJamIsostatic) {
-    // 2 N unknown positions and the box size: as many contacts as unknowns. One seed in twenty was seen to
-    // differ by two, with contacts that carry less than a thousandth of the mean.
+    // 2 N unknown positions and the box size: as many contacts as unknowns. Of 1500 seeds of 50 grains 47
+    // miss one contact, which carries less than the least force that is counted.
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         const JammedPacking result = jammed(60, seed);
         const int carried = 60 - result.rattlers;
@@ -69,15 +69,14 @@ TEST(Jam, FrictionlessDiscsJamIsostatic) {
     }
 }
 
-TEST(Jam, ManyGrainsApproachTheKnownPackingFractionAndCoordination) {
-    // Frictionless discs without walls: phi 0.84, Z 4; walls lower both at 300 grains.
-    const JammedPacking result = jammed(300, 1);
-    EXPECT_GT(result.packing_fraction, 0.80);
+TEST(Jam, MoreGrainsApproachTheKnownPackingFractionAndCoordination) {
+    // Frictionless discs without walls: phi 0.84, Z 4; walls lower both at 150 grains.
+    const JammedPacking result = jammed(150, 1);
+    EXPECT_GT(result.packing_fraction, 0.79);
     EXPECT_LT(result.packing_fraction, 0.85);
-    EXPECT_NEAR(result.contacts, 2 * (300 - result.rattlers) + 1, 3);
-    EXPECT_GT(result.coordination_number,
-              3.4);  // 4 minus twice the share of wall contacts, about 0.17 a grain
-    EXPECT_LT(result.coordination_number, 3.9);
+    EXPECT_NEAR(result.contacts, 2 * (150 - result.rattlers) + 1, 3);
+    // 4 minus twice the number of wall contacts for each grain, about 0.25.
+    EXPECT_NEAR(result.coordination_number, 3.5, 0.15);
     EXPECT_GE(smallest_gap(result.packing), -1e-13);
 }
 
@@ -91,11 +90,10 @@ TEST(Jam, NothingOverlapsAndContactsTouch) {
     }
 }
 
-TEST(Jam, IsAtTheJammingPoint) {
-    // The same discs in a box smaller by a strain of 1e-5 must overlap: contacts are closed to 1e-6.
+TEST(Jam, EveryCountedContactIsClosed) {
+    // Overlaps of 5e-7 mean radii at most, and the box opened by as much over a distance of up to 4 radii.
     const JammedPacking result = jammed(50, 5);
-    double mean_radius = result.packing.mean_radius();
-    EXPECT_GE(count_touching(result.packing, 2e-6 * mean_radius * 2.0), result.contacts);
+    EXPECT_GE(count_touching(result.packing, 4e-6 * result.packing.mean_radius()), result.contacts);
 }
 
 TEST(Jam, ClosedForms) {

@@ -1,5 +1,6 @@
 // Defaults, the resolved scenario, and the list of keys.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -135,7 +136,8 @@ TEST(Resolved, APackingFileStaysTheSameFileFromAnotherFolder) {
 }
 
 TEST(Resolved, ReadsFromAFile) {
-    const auto path = std::filesystem::temp_directory_path() / "softgrain_test_scenario.toml";
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("softgrain_scenario_" + std::to_string(::getpid()) + ".toml");
     std::ofstream(path) << stage;
     const std::vector<std::string> overrides{"material.density=5"};
     const Scenario s = read_scenario(path, overrides, methods());
