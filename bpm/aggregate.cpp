@@ -1,0 +1,175 @@
+#include "bpm/aggregate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bpm/attraction.hpp"
+#include "bpm/disc_sizes.hpp"
+#include "bpm/outline.hpp"
+#include "common/contact_dynamics/contact_dynamics.hpp"
+#include "common/errors.hpp"
+
+namespace softgrain::bpm {
+namespace {
+
+// Units of the preparation: mean disc diameter 1, F0 1, and a disc of the mean diameter has mass 1.
+constexpr double time_step = 0.1;
+constexpr double damping = 0.5;          // rate of the velocity damping
+constexpr double start_fraction = 0.4;   // area of the discs / area of the circle they are thrown into
+constexpr double pull = 0.3;             // central force on a disc of mass 1 at distance 1
+constexpr double gathered_speed = 0.01;  // ends the pull
+constexpr int settled_steps = 20;        // the bounds must hold for so many steps in a row
+constexpr int free_steps = 50;           // and then without damping
+constexpr int most_steps = 40000;
+
+std::vector<Vec2> throw_in_circle(const std::vector<double>& radius, Random& random) {
+    double area = 0.0;
+    for (double r : radius) area += r * r;
+    double circle = std::sqrt(area / start_fraction);
+    std::vector<Vec2> x;
+    int misses = 0;
+    while (x.size() < radius.size()) {
+        const double r = radius[x.size()];
+        const double distance = (circle - r) * std::sqrt(random.uniform());
+        const double angle = 2.0 * std::numbers::pi * random.uniform();
+        const Vec2 place{distance * std::cos(angle), distance * std::sin(angle)};
+        bool is_free = true;
+        for (std::size_t k = 0; k < x.size() && is_free; ++k)
+            is_free = (x[k] - place).squaredNorm() > (radius[k] + r) * (radius[k] + r);
+        if (is_free) {
+            x.push_back(place);
+            misses = 0;
+        } else if (++misses > 200) {
+            circle *= 1.05;
+            misses = 0;
+        }
+    }
+    return x;
+}
+
+double largest_overlap(const ContactDynamics& contacts, std::span<const Vec2> x,
+                       std::span<const double> radius) {
+    double overlap = 0.0;
+    const ContactRows& rows = contacts.rows();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto i = static_cast<std::size_t>(rows.i[k]);
+        const auto j = static_cast<std::size_t>(rows.j[k]);
+        overlap = std::max(overlap, radius[i] + radius[j] - (x[j] - x[i]).norm());
+    }
+    return overlap;
+}
+
+class Preparation {
+  public:
+    Preparation(std::vector<double> radius, std::vector<Vec2> x)
+        : radius_(std::move(radius)),
+          x_(std::move(x)),
+          v_(x_.size(), Vec2::Zero()),
+          force_(x_.size(), Vec2::Zero()),
+          group_(x_.size(), 0),
+          attraction_({1.0}, {0, static_cast<int>(x_.size())}, radius_, 0.5),
+          contacts_(ContactSettings{.tolerance = 1e-5, .skin = 0.3, .max_iterations = 2000}) {
+        for (double r : radius_) mass_.push_back(4.0 * r * r);
+    }
+
+    void step(double pull_strength, double damping_rate) {
+        attraction_.forces(x_, 0.0, force_);
+        const double keep = 1.0 - damping_rate * time_step;
+        for (std::size_t d = 0; d < x_.size(); ++d)
+            v_[d] = keep * (v_[d] + time_step * (force_[d] / mass_[d] - pull_strength * x_[d]));
+        contacts_.solve({x_, radius_, mass_, group_, v_, {}}, walls_, time_step);
+        for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += time_step * v_[d];
+    }
+
+    /// Root mean square.
+    double speed() const {
+        double sum = 0.0;
+        for (const Vec2& v : v_) sum += v.squaredNorm();
+        return std::sqrt(sum / static_cast<double>(v_.size()));
+    }
+    double overlap() const { return largest_overlap(contacts_, x_, radius_); }
+    bool within_bounds() const {
+        return speed() < aggregate_speed_bound && overlap() < aggregate_overlap_bound;
+    }
+
+    /// Steps until the bounds hold; returns the steps made.
+    int settle(int steps) {
+        int quiet = 0;
+        while (quiet < settled_steps + free_steps && steps < most_steps) {
+            step(0.0, quiet < settled_steps ? damping : 0.0);
+            quiet = within_bounds() ? quiet + 1 : 0;
+            ++steps;
+        }
+        return steps;
+    }
+    int gather() {
+        int steps = 0;
+        do {
+            step(pull, damping);
+            ++steps;
+        } while (speed() > gathered_speed && steps < most_steps);
+        return steps;
+    }
+
+    std::vector<Vec2> about_mass_center() const {
+        Vec2 center = Vec2::Zero();
+        double mass = 0.0;
+        for (std::size_t d = 0; d < x_.size(); ++d) {
+            center += mass_[d] * x_[d];
+            mass += mass_[d];
+        }
+        std::vector<Vec2> x = x_;
+        for (Vec2& place : x) place -= center / mass;
+        return x;
+    }
+    const std::vector<double>& radius() const { return radius_; }
+
+  private:
+    std::vector<double> radius_, mass_;
+    std::vector<Vec2> x_, v_, force_;
+    std::vector<int> group_;
+    Attraction attraction_;
+    ContactDynamics contacts_;
+    WallMotion walls_{{{-1e9, 1e9, -1e9, 1e9}}, {}};
+};
+
+/// Factor that makes the outline enclose pi radius^2.
+double scale_to(const Aggregate& grain, double rho, double radius) {
+    std::vector<double> reach = grain.radius;
+    for (double& r : reach) r += rho;
+    NeighborList near;
+    near.build(grain.x, reach, 1e-9);
+    const double area = Outline(grain.x, grain.radius, rho, near.pairs()).area();
+    return std::sqrt(std::numbers::pi * radius * radius / area);
+}
+
+}  // namespace
+
+Aggregate prepare_aggregate(const AggregateSpec& spec, double radius) {
+    Random random(spec.seed, static_cast<std::uint64_t>(spec.grain));
+    std::vector<double> radii = uniform_volume_radii(spec.discs, spec.diameter_ratio, random);
+    std::vector<Vec2> start = throw_in_circle(radii, random);
+    Preparation preparation(std::move(radii), std::move(start));
+    Aggregate grain;
+    grain.steps = preparation.settle(preparation.gather());
+    grain.speed = preparation.speed();
+    grain.overlap = preparation.overlap();
+    if (!preparation.within_bounds())
+        throw DivergedError(
+            spec.grain, "preparation of the aggregate", 0.0,
+            fmt::format("after {} steps the speed is {:.3g} sqrt(F0 d/m) (bound {:.3g}) and "
+                        "the largest overlap {:.3g} d (bound {:.3g}); use another random.seed",
+                        grain.steps, grain.speed, aggregate_speed_bound, grain.overlap,
+                        aggregate_overlap_bound));
+    grain.x = preparation.about_mass_center();
+    grain.radius = preparation.radius();
+    const double scale = scale_to(grain, spec.outline_rho, radius);
+    for (Vec2& place : grain.x) place *= scale;
+    for (double& r : grain.radius) r *= scale;
+    return grain;
+}
+
+}  // namespace softgrain::bpm

@@ -1,0 +1,35 @@
+#pragma once
+// Preparation of one grain: discs drawn together at random, then relaxed under their own attraction.
+#include <cstdint>
+#include <vector>
+
+#include "common/vec.hpp"
+
+namespace softgrain::bpm {
+
+struct AggregateSpec {
+    int discs = 100;
+    double diameter_ratio = 1.625;  ///< largest / smallest disc
+    double outline_rho = 0.3;       ///< closing radius of the outline, in mean disc diameters
+    std::uint64_t seed = 1;
+    int grain = 0;  ///< index: its own stream of random numbers
+};
+
+/// A relaxed grain about its centre of mass.
+struct Aggregate {
+    std::vector<Vec2> x;
+    std::vector<double> radius;
+    double speed = 0.0;    ///< root mean square speed left, in sqrt(F0 d / m)
+    double overlap = 0.0;  ///< largest overlap left, in mean disc diameters
+    int steps = 0;
+};
+
+/// Bounds that a prepared grain meets; root mean square speed in sqrt(F0 d/m), overlap in mean disc
+/// diameters.
+inline constexpr double aggregate_speed_bound = 1e-3;
+inline constexpr double aggregate_overlap_bound = 1e-4;
+
+/// The outline of the grain encloses pi radius^2 [m^2]. Throws DivergedError if the bounds are not met.
+Aggregate prepare_aggregate(const AggregateSpec& spec, double radius);
+
+}  // namespace softgrain::bpm

@@ -1,0 +1,87 @@
+#include "bpm/method.hpp"
+
+#include <array>
+#include <limits>
+
+#include "bpm/solver.hpp"
+
+namespace softgrain::bpm {
+namespace {
+
+// The paper's figure 6: BPM grains yield at 0.05 E of its MPM grains, and at 0.18 F0/<a0> here.
+constexpr double attraction_stress_per_modulus = 0.28;
+
+std::span<const KeySpec> keys() {
+    static const std::array<KeySpec, 8> table{{
+        {"discs_per_grain",
+         KeyType::integer,
+         std::int64_t{100},
+         "",
+         "discs in a grain of the mean radius; a larger grain has more discs of the same size",
+         {1.0, 100000.0}},
+        {"disc_size_ratio",
+         KeyType::number,
+         1.625,
+         "",
+         "largest / smallest disc diameter; disc areas are uniformly distributed",
+         {1.0, 4.0}},
+        {"attraction_stress", KeyType::number, std::monostate{}, "N/m",
+         "F0/<a0>: largest attraction of two discs / mean disc diameter; 0.28 E if not given", positive},
+        {"tolerance",
+         KeyType::number,
+         1e-4,
+         "disc diameters",
+         "contact solver stops when a sweep changes no gap by more",
+         {1e-9, 1e-2}},
+        {"step", KeyType::number, 0.07, "sqrt(m d / F0)", "time step", {0.0, 0.2, true}},
+        {"max_iterations",
+         KeyType::integer,
+         std::int64_t{1000},
+         "",
+         "most sweeps of the contact solver in a step",
+         {1.0, 1e6}},
+        {"over_relaxation",
+         KeyType::number,
+         1.7,
+         "",
+         "of the contact solver; rows with friction use 1",
+         {0.0, 2.0, true, true}},
+        {"outline_rho",
+         KeyType::number,
+         0.3,
+         "disc diameters",
+         "pores that a disc of this radius cannot enter count as covered by the grain",
+         {0.01, 0.5}},
+    }};
+    return table;
+}
+
+std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
+    return std::make_unique<BpmSolver>(scenario, packing);
+}
+
+}  // namespace
+
+BpmSettings settings_of(const Scenario& scenario) {
+    const auto given = scenario.method_settings.find("bpm");
+    const Settings settings = given == scenario.method_settings.end() ? Settings(keys()) : given->second;
+    return {.discs_per_grain = static_cast<int>(settings.integer("discs_per_grain")),
+            .disc_size_ratio = settings.number("disc_size_ratio"),
+            .attraction_stress = settings.has("attraction_stress")
+                                     ? settings.number("attraction_stress")
+                                     : attraction_stress_per_modulus * scenario.material.youngs_modulus,
+            .tolerance = settings.number("tolerance"),
+            .step = settings.number("step"),
+            .max_iterations = static_cast<int>(settings.integer("max_iterations")),
+            .over_relaxation = settings.number("over_relaxation"),
+            .outline_rho = settings.number("outline_rho")};
+}
+
+const Method& method() {
+    static const Method row{"bpm",
+                            "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
+                            &keys, &make, ""};
+    return row;
+}
+
+}  // namespace softgrain::bpm

@@ -1,0 +1,236 @@
+#include "bpm/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "bpm/aggregate.hpp"
+#include "common/errors.hpp"
+
+namespace softgrain::bpm {
+namespace {
+
+// Lists reach this far beyond what can act, in mean disc diameters.
+constexpr double contact_skin = 0.25;
+constexpr double attraction_skin = 0.5;
+// Placing the aggregates: overlaps are removed at rest, then the grains come to rest under their own forces.
+constexpr int most_placing_steps = 300;
+constexpr int most_resting_steps = 1000;
+constexpr double placed_overlap = 1e-3;  // [mean disc diameters]
+constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
+constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
+constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
+constexpr double invalid_overlap = 0.05;
+
+std::size_t at(int k) {
+    return static_cast<std::size_t>(k);
+}
+
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+BpmSolver::Assembly BpmSolver::assemble(const Scenario& scenario, const Packing& packing,
+                                        const BpmSettings& settings) {
+    const auto grains = static_cast<int>(packing.size());
+    if (grains == 0) throw InputError("bpm: the packing has no grains");
+    const double mean_radius = packing.mean_radius();
+    std::vector<Aggregate> aggregates(packing.size());
+    std::vector<std::string> failure(packing.size());
+#pragma omp parallel for schedule(dynamic)
+    for (int g = 0; g < grains; ++g) {
+        const double size = packing.radius[at(g)] / mean_radius;
+        const int count = std::max(1, static_cast<int>(std::lround(settings.discs_per_grain * size * size)));
+        try {
+            aggregates[at(g)] =
+                prepare_aggregate({count, settings.disc_size_ratio, settings.outline_rho, scenario.seed, g},
+                                  packing.radius[at(g)]);
+        } catch (const std::exception& error) {
+            failure[at(g)] = error.what();
+        }
+    }
+    Assembly all;
+    all.grain_start.push_back(0);
+    for (int g = 0; g < grains; ++g) {
+        if (!failure[at(g)].empty()) throw DivergedError(g, "preparation", 0.0, failure[at(g)]);
+        const Aggregate& grain = aggregates[at(g)];
+        const Mat2 frame = packing.frame_of(at(g));
+        const double area = std::numbers::pi * packing.radius[at(g)] * packing.radius[at(g)];
+        double square_sum = 0.0;
+        for (double r : grain.radius) square_sum += r * r;
+        for (std::size_t d = 0; d < grain.x.size(); ++d) {
+            all.x.emplace_back(packing.center[at(g)] + frame * grain.x[d]);
+            all.radius.push_back(grain.radius[d]);
+            all.mass.push_back(scenario.material.density * area * grain.radius[d] * grain.radius[d] /
+                               square_sum);
+        }
+        all.reference_area.push_back(area);
+        all.grain_start.push_back(static_cast<int>(all.x.size()));
+    }
+    return all;
+}
+
+BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing)
+    : BpmSolver(scenario, packing, settings_of(scenario),
+                assemble(scenario, packing, settings_of(scenario))) {}
+
+BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const BpmSettings& settings,
+                     Assembly assembly)
+    : settings_(settings),
+      friction_(scenario.material.friction),
+      grain_start_(std::move(assembly.grain_start)),
+      x_(std::move(assembly.x)),
+      v_(x_.size(), Vec2::Zero()),
+      force_(x_.size(), Vec2::Zero()),
+      v_before_(x_.size(), Vec2::Zero()),
+      radius_(std::move(assembly.radius)),
+      mass_(std::move(assembly.mass)),
+      rim_speed_(x_.size(), 0.0),
+      rim_speed_before_(x_.size(), 0.0),
+      diameter_(2.0 * mean_of(radius_)),
+      maximum_force_(settings.attraction_stress * diameter_),
+      time_step_(settings.step * std::sqrt(mean_of(mass_) * diameter_ / maximum_force_)),
+      attraction_({maximum_force_}, grain_start_, radius_, attraction_skin * diameter_),
+      contacts_({settings.tolerance * diameter_, contact_skin * diameter_, settings.max_iterations,
+                 settings.over_relaxation, friction_}),
+      box_(packing.box),
+      reference_area_(std::move(assembly.reference_area)) {
+    for (std::size_t g = 0; g < grains(); ++g) {
+        const int count = grain_start_[g + 1] - grain_start_[g];
+        grain_.insert(grain_.end(), at(count), static_cast<int>(g));
+        disc_count_.push_back(count);
+        grain_mass_.push_back(scenario.material.density * reference_area_[g]);
+    }
+    settle(packing.box);
+    potential_at_start_ = attraction_.energy(x_);
+}
+
+void BpmSolver::settle(const Box& box) {
+    const WallMotion at_rest{box, {}};
+    const auto come_to_rest = [&] {
+        std::fill(v_.begin(), v_.end(), Vec2::Zero());
+        std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
+    };
+    int placing = 0;
+    do {
+        step(at_rest, time_step_);
+        come_to_rest();
+    } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
+    if (penetration_ > misfit_overlap)
+        throw InputError(
+            fmt::format("bpm: the aggregates do not fit into the packing: discs overlap by {:.3g} of their "
+                        "diameter; start from a "
+                        "looser packing (smaller packing.packing_fraction)",
+                        penetration_));
+
+    const double unit_speed = std::sqrt(maximum_force_ * diameter_ / mean_of(mass_));
+    const double keep = 1.0 - resting_damping * settings_.step;
+    for (int k = 0; k < most_resting_steps; ++k) {
+        step(at_rest, time_step_);
+        if (root_mean_square_speed() < resting_speed * unit_speed) break;
+        for (Vec2& v : v_) v *= keep;
+        for (double& w : rim_speed_) w *= keep;
+    }
+    come_to_rest();
+    time_ = 0.0;
+    energy_ = {};
+}
+
+void BpmSolver::advance(const WallMotion& walls, double dt) {
+    step(walls, dt);
+    account(walls, dt);
+}
+
+void BpmSolver::step(const WallMotion& walls, double h) {
+    attraction_.forces(x_, time_, force_);
+    for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
+    v_before_ = v_;
+    rim_speed_before_ = rim_speed_;
+    contact_result_ = contacts_.solve(discs(), walls, h);
+    watch(h);
+    for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
+    time_ += h;
+    last_step_ = h;
+    box_ = walls.after(h);
+
+    double deepest = 0.0;
+    for (double gap_speed : contacts_.rows().gap_speed) deepest = std::max(deepest, -gap_speed);
+    for (double gap_speed : contacts_.wall_rows().gap_speed) deepest = std::max(deepest, -gap_speed);
+    penetration_ = deepest * h / diameter_;
+
+    wall_force_.fill(Vec2::Zero());
+    const WallRows& rows = contacts_.wall_rows();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        wall_force_[at(rows.wall[k])] -=
+            mass_[at(rows.disc[k])] * rows.normal[k] / h * wall_normal(rows.wall[k]);
+}
+
+void BpmSolver::account(const WallMotion& walls, double h) {
+    double work = 0.0;
+    for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));
+    // Kinetic energy that the impulses p gave the discs: p.(v- + v+)/2, with p = m (v+ - v-).
+    double given = 0.0;
+    for (std::size_t d = 0; d < x_.size(); ++d) {
+        given += 0.5 * mass_[d] * (v_[d] - v_before_[d]).dot(v_[d] + v_before_[d]);
+        given +=
+            0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
+    }
+    double rubbed = 0.0;
+    if (friction_ > 0.0) {
+        const ContactRows& rows = contacts_.rows();
+        for (std::size_t k = rows.within_groups(); k < rows.size(); ++k) {
+            const std::size_t i = at(rows.i[k]);
+            const std::size_t j = at(rows.j[k]);
+            const Vec2 t = perpendicular(rows.direction[k]);
+            const double slip = t.dot(v_[j] + v_before_[j] - v_[i] - v_before_[i]) - rim_speed_[i] -
+                                rim_speed_before_[i] - rim_speed_[j] - rim_speed_before_[j];
+            rubbed -= 0.5 * slip * rows.tangential[k] * contacts_.reduced_mass(k, mass_);
+        }
+    }
+    energy_.external_work += work;
+    energy_.friction += rubbed;
+    energy_.impact += work - given - rubbed;
+}
+
+void BpmSolver::watch(double h) const {
+    for (std::size_t d = 0; d < v_.size(); ++d) {
+        const double moved = h * v_[d].norm();
+        if (moved <= diameter_) continue;
+        throw DivergedError(
+            grain_[d], "disc velocity", time_,
+            std::isfinite(moved)
+                ? fmt::format("a disc moves {:.3g} diameters in one step; load more slowly or use a "
+                              "smaller bpm.step",
+                              moved / diameter_)
+                : std::string("not finite; load more slowly or use a smaller bpm.step"));
+    }
+}
+
+std::optional<std::string> BpmSolver::outside_validity() const {
+    if (penetration_ <= invalid_overlap) return std::nullopt;
+    return fmt::format(
+        "rigid discs overlap by {:.3g} of their diameter (contact solver: {} iterations, {}); the grains "
+        "cannot be "
+        "compacted further",
+        penetration_, contact_result_.iterations, contact_result_.converged ? "converged" : "not converged");
+}
+
+double BpmSolver::kinetic_energy() const {
+    double sum = 0.0;
+    for (std::size_t d = 0; d < v_.size(); ++d)
+        sum += mass_[d] * (0.5 * v_[d].squaredNorm() + 0.25 * rim_speed_[d] * rim_speed_[d]);
+    return sum;
+}
+
+double BpmSolver::root_mean_square_speed() const {
+    double sum = 0.0;
+    for (const Vec2& v : v_) sum += v.squaredNorm();
+    return std::sqrt(sum / static_cast<double>(v_.size()));
+}
+
+}  // namespace softgrain::bpm

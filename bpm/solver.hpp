@@ -1,0 +1,102 @@
+#pragma once
+// The bonded-particle method as a Solver: every grain is an aggregate of rigid discs.
+#include <array>
+#include <vector>
+
+#include "bpm/attraction.hpp"
+#include "bpm/grain_contacts.hpp"
+#include "common/contact_dynamics/contact_dynamics.hpp"
+#include "common/solver.hpp"
+
+namespace softgrain::bpm {
+
+/// Values of the scenario table [bpm]; see bpm/method.cpp for units and defaults.
+struct BpmSettings {
+    int discs_per_grain;
+    double disc_size_ratio;
+    double attraction_stress;  ///< F0 / <a0> [N/m]
+    double tolerance;          ///< [mean disc diameters]
+    double step;               ///< time step / sqrt(m d / F0)
+    int max_iterations;
+    double over_relaxation;
+    double outline_rho;  ///< [mean disc diameters]
+};
+
+/// Reads the table [bpm] of a scenario, defaults where there is none.
+BpmSettings settings_of(const Scenario& scenario);
+
+class BpmSolver final : public Solver {
+  public:
+    /// Prepares the aggregates, puts them in place of the packing's discs and removes the overlaps of their
+    /// rough outlines. Throws InputError if they do not fit, DivergedError if a preparation fails.
+    BpmSolver(const Scenario& scenario, const Packing& packing);
+
+    double stable_time_step() const override { return time_step_; }
+    void advance(const WallMotion& walls, double dt) override;
+    GrainView view(Need need) override;
+    const std::array<Vec2, 4>& wall_force() const override { return wall_force_; }
+    double stress_scale() const override { return settings_.attraction_stress; }
+    std::optional<std::string> outside_validity() const override;
+    void check_finite() const override;
+    void save(Checkpoint& to) const override;
+    void load(const Checkpoint& from) override;
+
+    std::span<const Vec2> disc_position() const { return x_; }
+    std::span<const double> disc_radius() const { return radius_; }
+    std::span<const int> grain_start() const { return grain_start_; }
+    double mean_disc_diameter() const { return diameter_; }
+    double maximum_force() const { return maximum_force_; }
+    const ContactResult& last_contact_result() const { return contact_result_; }
+    /// Largest overlap of two discs or of disc and wall before the last step [mean disc diameters].
+    double penetration() const { return penetration_; }
+
+  private:
+    struct Assembly {
+        std::vector<int> grain_start;
+        std::vector<Vec2> x;
+        std::vector<double> radius, mass, reference_area;
+    };
+    static Assembly assemble(const Scenario& scenario, const Packing& packing, const BpmSettings& settings);
+    BpmSolver(const Scenario& scenario, const Packing& packing, const BpmSettings& settings,
+              Assembly assembly);
+
+    Discs discs() { return {x_, radius_, mass_, grain_, v_, rim_speed_}; }
+    std::size_t grains() const { return grain_start_.size() - 1; }
+    void settle(const Box& box);
+    void step(const WallMotion& walls, double h);
+    void account(const WallMotion& walls, double h);
+    void watch(double h) const;
+    double kinetic_energy() const;
+    double root_mean_square_speed() const;
+
+    void view_grains();
+    void view_outlines(Need need, GrainView& view);
+    void view_fields(GrainView& view);
+
+    BpmSettings settings_;
+    double friction_;
+    std::vector<int> grain_start_;  ///< [grains + 1] first disc of each grain
+    std::vector<int> grain_;        ///< [discs]
+    std::vector<Vec2> x_, v_, force_, v_before_;
+    std::vector<double> radius_, mass_, rim_speed_, rim_speed_before_;
+    double diameter_, maximum_force_, time_step_;
+    Attraction attraction_;
+    ContactDynamics contacts_;
+
+    double time_ = 0.0;
+    Box box_;
+    double last_step_ = 0.0;
+    std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+    EnergyLedger energy_;
+    double potential_at_start_ = 0.0;
+    ContactResult contact_result_;
+    double penetration_ = 0.0;
+
+    // What view() hands out.
+    std::vector<Vec2> centroid_, velocity_, outline_point_;
+    std::vector<double> grain_mass_, reference_area_, area_, disc_count_, grain_penetration_, iterations_;
+    std::vector<int> outline_offset_;
+    GrainContacts grain_contacts_;
+};
+
+}  // namespace softgrain::bpm

@@ -1,0 +1,113 @@
+// What the solver shows of its grains.
+#include <algorithm>
+#include <cmath>
+
+#include "bpm/outline.hpp"
+#include "bpm/solver.hpp"
+
+namespace softgrain::bpm {
+namespace {
+
+constexpr double touch_gap = 0.02;  // two grains touch below this gap [mean disc diameters]
+
+std::size_t at(int k) {
+    return static_cast<std::size_t>(k);
+}
+
+}  // namespace
+
+GrainView BpmSolver::view(Need need) {
+    view_grains();
+    energy_.kinetic = kinetic_energy();
+    energy_.elastic = attraction_.energy(x_) - potential_at_start_;
+    GrainView view;
+    view.time = time_;
+    view.box = box_;
+    view.centroid = centroid_;
+    view.velocity = velocity_;
+    view.mass = grain_mass_;
+    view.reference_area = reference_area_;
+    view.wall_force = wall_force_;
+    view.energy = energy_;
+    if (wants(need, Need::contacts) || wants(need, Need::stress)) {
+        grain_contacts_ = sum_grain_contacts(
+            contacts_, {discs(), centroid_, reference_area_, box_, touch_gap * diameter_, last_step_});
+        view.contacts = grain_contacts_.contacts;
+        view.stress = grain_contacts_.stress;
+    }
+    if (wants(need, Need::area) || wants(need, Need::outlines)) view_outlines(need, view);
+    if (wants(need, Need::fields)) view_fields(view);
+    return view;
+}
+
+void BpmSolver::view_grains() {
+    centroid_.assign(grains(), Vec2::Zero());
+    velocity_.assign(grains(), Vec2::Zero());
+    std::vector<double> mass(grains(), 0.0);
+    for (std::size_t d = 0; d < x_.size(); ++d) {
+        const std::size_t g = at(grain_[d]);
+        centroid_[g] += mass_[d] * x_[d];
+        velocity_[g] += mass_[d] * v_[d];
+        mass[g] += mass_[d];
+    }
+    for (std::size_t g = 0; g < grains(); ++g) {
+        centroid_[g] /= mass[g];
+        velocity_[g] /= mass[g];
+    }
+}
+
+void BpmSolver::view_outlines(Need need, GrainView& view) {
+    const double rho = settings_.outline_rho * diameter_;
+    std::vector<double> reach = radius_;
+    for (double& r : reach) r += rho;
+    NeighborList near;
+    near.build(x_, reach, 1e-6 * diameter_);
+    std::vector<Pair> inside;
+    for (const Pair& pair : near.pairs())
+        if (grain_[at(pair.i)] == grain_[at(pair.j)]) inside.push_back(pair);
+    const Outline of_grains(x_, radius_, rho, inside);
+    if (wants(need, Need::area)) {
+        area_.resize(grains());
+        for (std::size_t g = 0; g < grains(); ++g)
+            area_[g] = of_grains.area(grain_start_[g], grain_start_[g + 1]);
+        view.area = area_;
+        view.covered_area = Outline(x_, radius_, rho, near.pairs()).area();
+    }
+    if (wants(need, Need::outlines)) {
+        outline_offset_.assign(1, 0);
+        outline_point_.clear();
+        for (std::size_t g = 0; g < grains(); ++g) {
+            of_grains.append_polygon(grain_start_[g], grain_start_[g + 1], outline_point_);
+            outline_offset_.push_back(static_cast<int>(outline_point_.size()));
+        }
+        view.outline_offset = outline_offset_;
+        view.outline_point = outline_point_;
+    }
+}
+
+void BpmSolver::view_fields(GrainView& view) {
+    grain_penetration_.assign(grains(), 0.0);
+    const auto note = [&](int disc, double overlap) {
+        double& deepest = grain_penetration_[at(grain_[at(disc)])];
+        deepest = std::max(deepest, overlap / diameter_);
+    };
+    const ContactRows& rows = contacts_.rows();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::size_t i = at(rows.i[k]);
+        const std::size_t j = at(rows.j[k]);
+        const double overlap = radius_[i] + radius_[j] - (x_[j] - x_[i]).norm();
+        note(rows.i[k], overlap);
+        note(rows.j[k], overlap);
+    }
+    const WallRows& walls = contacts_.wall_rows();
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+        const std::size_t d = at(walls.disc[k]);
+        note(walls.disc[k], radius_[d] - box_.distance(walls.wall[k], x_[d]));
+    }
+    iterations_.assign(grains(), contact_result_.iterations);
+    view.fields.push_back({"discs", "", 1, disc_count_});
+    view.fields.push_back({"penetration", "disc diameters", 1, grain_penetration_});
+    view.fields.push_back({"contact_iterations", "", 1, iterations_});
+}
+
+}  // namespace softgrain::bpm

@@ -1,0 +1,67 @@
+#pragma once
+// Contact dynamics of rigid discs (Moreau-Jean): one implicit step of unilateral, inelastic contact.
+#include <string>
+#include <vector>
+
+#include "common/box.hpp"
+#include "common/checkpoint.hpp"
+#include "common/contact_dynamics/contact_rows.hpp"
+#include "common/contact_dynamics/discs.hpp"
+#include "common/neighbors.hpp"
+
+namespace softgrain {
+
+struct ContactSettings {
+    double tolerance = 0.0;        ///< largest change of a gap by one more sweep [m], > 0
+    double skin = 0.0;             ///< candidates are pairs with a smaller gap [m], > 0
+    int max_iterations = 1000;     ///< sweeps in one solve
+    double over_relaxation = 1.7;  ///< 0 to 2; rows with friction use 1
+    double friction = 0.0;         ///< Coulomb coefficient between groups; walls are frictionless
+};
+
+struct ContactResult {
+    int iterations = 0;     ///< sweeps made
+    double residual = 0.0;  ///< h max |dp / (omega m_e)| of the last sweep [m]
+    bool converged = false;
+};
+
+/// Finds impulses p >= 0 such that no gap is negative after x += h v, by projected over-relaxation with warm
+/// start: p' = max(0, p - omega m_e (n.dv + gap/h)), t' = clamp(t - (m_e/3) v_t, +-mu p').
+/// Same bits for any number of threads: groups are swept in parallel, then rows between groups by colour.
+class ContactDynamics {
+  public:
+    explicit ContactDynamics(const ContactSettings& settings);
+
+    /// Changes discs.v (and rim_speed) from the velocities without contact to those at the end of the step.
+    /// The number, radii, masses and groups of the discs must stay the same between calls.
+    ContactResult solve(const Discs& discs, const WallMotion& walls, double h);
+
+    /// The contacts of the last solve; impulses are `normal` and `tangential` times the reduced mass.
+    const ContactRows& rows() const { return rows_; }
+    const WallRows& wall_rows() const { return wall_rows_; }
+    /// Reduced mass of a row between discs [kg].
+    double reduced_mass(std::size_t row, std::span<const double> mass) const {
+        return rows_.share[row] * mass[static_cast<std::size_t>(rows_.i[row])];
+    }
+    long long rebuilds() const { return rebuilds_; }
+
+    /// Everything the next solve depends on, under names starting with `prefix`.
+    void save(Checkpoint& to, const std::string& prefix) const;
+    void load(const Checkpoint& from, const std::string& prefix, const Discs& discs);
+
+  private:
+    bool stale(const Discs& discs, const WallMotion& walls, double h) const;
+    void rebuild(const Discs& discs, const Box& box);
+    void list_candidates(const Discs& discs, const Box& box);
+    void scale_impulses(double factor);
+
+    ContactSettings settings_;
+    NeighborList candidates_;
+    Box built_box_;
+    ContactRows rows_;
+    WallRows wall_rows_;
+    double last_step_ = 0.0;  ///< h of the stored impulses, 0 before the first solve
+    long long rebuilds_ = 0;
+};
+
+}  // namespace softgrain
