@@ -20,6 +20,7 @@ struct Bands {
     double symmetry;      ///< relative difference between a scene and its image
     double equilibrium;   ///< relative difference between wall and Love-Weber stress at rest
     double ledger;        ///< energy residual / external work
+    double closed_pores;  ///< covered area may exceed the sum of grain areas by this share
     double loading_time;  ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
 };
 

@@ -45,25 +45,28 @@ TEST_P(Contract, NoMotionWhereThereIsNoForce) {
 TEST_P(Contract, MomentumComesFromTheWalls) {
     const Packing packing = nine_grains();
     const auto solver = solver_for(packing);
-    Vec2 impulse = Vec2::Zero();
-    double largest_force = 0.0;
-    double largest_step = 0.0;
-    double largest_momentum = 0.0;
-    push(*solver, packing.box, Wall::left, 0.15, 0.1 * slow(*solver), [&](const Box&, double dt) {
+    const auto total_force = [&] {
         Vec2 force = Vec2::Zero();
         for (const Vec2& f : solver->wall_force()) force -= f;
-        impulse += force * dt;
-        largest_force = std::max(largest_force, force.norm());
-        largest_step = std::max(largest_step, dt);
+        return force;
+    };
+    Vec2 before = total_force();
+    Vec2 implicit = Vec2::Zero();   // impulses of the step itself (contact dynamics)
+    Vec2 explicit_ = Vec2::Zero();  // forces at the start of each step (leap-frog)
+    double largest = 0.0;
+    double error = 0.0;
+    push(*solver, packing.box, Wall::left, 0.08, 0.05 * slow(*solver), [&](const Box&, double dt) {
+        explicit_ += before * dt;
+        before = total_force();
+        implicit += before * dt;
         const GrainView view = solver->view(Need::base);
         Vec2 momentum = Vec2::Zero();
         for (std::size_t g = 0; g < view.size(); ++g) momentum += view.mass[g] * view.velocity[g];
-        largest_momentum = std::max(largest_momentum, momentum.norm());
-        // Leap-frog velocities lag half a step behind the forces: one step's impulse may be missing.
-        ASSERT_LE((momentum - impulse).norm(), 1.001 * largest_force * largest_step + 1e-12);
+        largest = std::max(largest, momentum.norm());
+        error = std::max(error, std::min((momentum - implicit).norm(), (momentum - explicit_).norm()));
     });
-    EXPECT_GT(largest_momentum, 20.0 * largest_force * largest_step)
-        << "the scene must move enough to test anything";
+    ASSERT_GT(largest, 0.0);
+    EXPECT_LE(error, 1e-10 * largest);
 }
 
 TEST_P(Contract, WallReactionAgreesWithLoveWeberAtRest) {
@@ -96,15 +99,15 @@ TEST_P(Contract, ARotatedOrMirroredSceneGivesTheRotatedOrMirroredAnswer) {
     quarter_turn << 0.0, -1.0, 1.0, 0.0;
     mirror << -1.0, 0.0, 0.0, 1.0;
     const auto original = solver_for(packing);
-    squeeze(*original, packing.box, 0.10, 0.2 * slow(*original));
+    squeeze(*original, packing.box, 0.10, 0.05 * slow(*original));
     const GrainView seen = original->view(Need::contacts | Need::area);
     const double scale = wall_stress(seen.wall_force, seen.box).norm();
     ASSERT_GT(scale, 1e-3 * original->stress_scale());
-    const Vec2 middle{3.3, 3.3};
+    const Vec2 middle{3.15, 3.15};
     for (const Mat2& image : {quarter_turn, mirror}) {
         const Packing turned = image_of(packing, image);
         const auto other = solver_for(turned);
-        squeeze(*other, turned.box, 0.10, 0.2 * slow(*other));
+        squeeze(*other, turned.box, 0.10, 0.05 * slow(*other));
         const GrainView there = other->view(Need::contacts | Need::area);
         for (std::size_t g = 0; g < packing.size(); ++g)
             EXPECT_LE((there.centroid[g] - middle - image * (seen.centroid[g] - middle)).norm(),
@@ -228,7 +231,7 @@ TEST_P(Contract, TheViewIsConsistent) {
         EXPECT_GT(polygon, 0.9 * view.area[g]) << "outlines go counter-clockwise around the grain";
         EXPECT_LT(polygon, 1.1 * view.area[g]);
     }
-    EXPECT_LE(view.covered_area, area * (1.0 + 1e-12));
+    EXPECT_LE(view.covered_area, area * (1.0 + GetParam().closed_pores));
     EXPECT_LE(view.covered_area, view.box.area());
     EXPECT_GT(view.covered_area, 0.9 * area);
     for (const Field& field : view.fields) {
