@@ -40,6 +40,7 @@ inline constexpr double largest_dilation_step = 1e-3;
 template <Kinematics K, bool Incompressible>
 struct Motion {
     static constexpr bool imposes_area = Incompressible && K != Kinematics::D2F0;
+    static constexpr bool corrects = imposes_area || K == Kinematics::D2F0;
 
     /// F' without what these kinematics do not allow. Nothing taken away carries angular momentum.
     static Mat2 allowed(const Mat2& F, const Mat2& F_rate) {
@@ -73,6 +74,13 @@ struct Motion {
         } else {
             return F;
         }
+    }
+
+    /// F' after F was corrected: allowed at the new F, with the angular momentum it had before.
+    static Mat2 carried(const Mat2& before, const Mat2& corrected, const Mat2& F_rate) {
+        const Mat2 kept = allowed(corrected, F_rate), W = turned(corrected);
+        const double lost = F_rate.cwiseProduct(turned(before)).sum() - kept.cwiseProduct(W).sum();
+        return kept + (lost / W.squaredNorm()) * W;
     }
 };
 

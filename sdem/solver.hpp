@@ -106,10 +106,11 @@ class SoftDiscSolver final : public Solver {
 
     EnergyLedger ledger_;                  ///< up to half a step before now; kinetic not used
     std::vector<double> stored_, damped_;  ///< [n] work of the last step
+    std::vector<double> caps_before_;      ///< [n] cap fraction one evaluation ago
     std::vector<Vec2> before_;             ///< [n] positions before the last step
 
     struct ViewData {
-        std::vector<double> area, strain_1, strain_2, cap_fraction, F;
+        std::vector<double> area, strain_1, strain_2, cap_fraction, covered_outline, F;
         std::vector<GrainContact> contacts;
         std::vector<Mat2> stress;
         std::vector<int> outline_offset;

@@ -43,6 +43,7 @@ void SoftDiscSolver::save(Checkpoint& to) const {
     to.put("sdem.built_at", neighbors_.built_at());
     to.put("sdem.built_reach", neighbors_.built_reach());
     to.put("sdem.deepest", std::span<const Vec2>(deepest_before_));
+    to.put("sdem.caps_before", std::span<const double>(caps_before_));
     to.put("sdem.energy", std::array<double, 3>{ledger_.elastic, ledger_.external_work, ledger_.damping});
 }
 
@@ -56,6 +57,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
     get_sized(from, "sdem.velocity", n, grains_.velocity);
     get_sized(from, "sdem.F", n, grains_.F);
     get_sized(from, "sdem.F_rate", n, grains_.F_rate);
+    get_sized(from, "sdem.caps_before", n, caps_before_);
     std::vector<Vec2> built_at;
     std::vector<double> built_reach, energy;
     get_sized(from, "sdem.built_at", n, built_at);
@@ -98,6 +100,11 @@ std::optional<std::string> SoftDiscSolver::outside_validity() const {
             return fmt::format("grain {} is strained by more than {:.0f} %: Eq. 41-46 are linear elasticity",
                                g, 100.0 * largest_trusted_strain);
     }
+    double covered = 0.0;
+    for (const GrainForces& sum : forces_) covered += sum.covered / static_cast<double>(size());
+    if (covered > 1.0)
+        return "contacts cover the whole outline of the mean grain: no pore is left, and Eq. 41 has no "
+               "meaning";
     for (std::size_t k = 0; k < pair_contact_.size(); ++k)
         if (pair_contact_[k].overlap == Overlap::four_points)
             return fmt::format("grains {} and {} cross in four points", neighbors_.pairs()[k].i,

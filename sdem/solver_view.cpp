@@ -37,7 +37,8 @@ GrainView SoftDiscSolver::view(Need need) {
                     {"radius", "m", 1, grains_.radius},
                     {"principal_strain_1", "1", 1, view_.strain_1},
                     {"principal_strain_2", "1", 1, view_.strain_2},
-                    {"cap_fraction", "1", 1, view_.cap_fraction}};
+                    {"cap_fraction", "1", 1, view_.cap_fraction},
+                    {"covered_outline", "1", 1, view_.covered_outline}};
     }
     return v;
 }
@@ -124,6 +125,7 @@ void SoftDiscSolver::fill_fields() {
     view_.strain_1.resize(n);
     view_.strain_2.resize(n);
     view_.cap_fraction.resize(n);
+    view_.covered_outline.resize(n);
     for (std::size_t g = 0; g < n; ++g) {
         const Mat2& F = grains_.F[g];
         for (int k = 0; k < 4; ++k) view_.F[4 * g + static_cast<std::size_t>(k)] = F(k / 2, k % 2);
@@ -131,6 +133,7 @@ void SoftDiscSolver::fill_fields() {
         view_.strain_1[g] = middle + d;
         view_.strain_2[g] = middle - d;
         view_.cap_fraction[g] = forces_[g].caps / grains_.reference_area[g];
+        view_.covered_outline[g] = forces_[g].covered;
     }
 }
 
