@@ -163,10 +163,14 @@ void Page::add_texts(vtkRenderer& renderer) const {
     }
 }
 
+void Page::add_to(vtkRenderer& renderer) const {
+    if (!colours_.empty()) add_shapes(renderer);
+    add_texts(renderer);
+}
+
 vtkSmartPointer<vtkImageData> Page::draw(Graphics& graphics) const {
     vtkNew<vtkRenderer> renderer;
-    add_shapes(*renderer);
-    add_texts(*renderer);
+    add_to(*renderer);
     return draw_scene(graphics, *renderer, width_, height_);
 }
 
