@@ -113,6 +113,15 @@ TEST_F(ReadingErrors, GoodFilesAreRead) {
     EXPECT_EQ(frames[1].path, frame);
 }
 
+TEST_F(ReadingErrors, AFrameWithoutContactsIsNotAnError) {
+    HandMadeGrains apart(3, 0.0, 0.0);
+    apart.contacts.clear();
+    ContactWriter(folder.path() / "apart").observe(apart.view(), frame_sample(0));
+    const auto data = read_vtp(folder.path() / "apart/contacts/contacts_000000.vtp");
+    EXPECT_EQ(data->GetNumberOfLines(), 0);
+    EXPECT_EQ(data->GetNumberOfPoints(), 0);
+}
+
 TEST_F(ReadingErrors, ATruncatedFrameIsNamed) {
     const auto size = fs::file_size(frame);
     for (const auto shorter : {size - 12, size / 2, size / 8, static_cast<std::uintmax_t>(0)}) {
