@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkObjectFactory.h>
+#include <vtkOpenGLState.h>
+#include <vtk_glew.h>
 
 #include <string>
 
@@ -29,6 +31,12 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
         vtkObject::SetGlobalWarningDisplay(display);
         this->Initialized = true;
         this->GlewInitValid = true;
+    }
+
+    /// Of shapes at the same depth the last one drawn is seen, as in VTK's own windows.
+    void Start() override {
+        this->Superclass::Start();
+        this->GetState()->vtkglDepthFunc(GL_LEQUAL);
     }
 
   protected:

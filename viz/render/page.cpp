@@ -118,13 +118,10 @@ void Page::add_shapes(vtkRenderer& renderer) const {
     vtkNew<vtkCellArray> triangles;
     vtkNew<vtkUnsignedCharArray> colours;
     colours->SetNumberOfComponents(4);
-    // VTK tests the depth of flat shapes too, and of equal depths the first is kept: the topmost goes first.
-    for (std::size_t t = colours_.size(); t-- > 0;) {
-        triangles->InsertNextCell(3);
-        for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-            triangles->InsertCellPoint(points->InsertNextPoint(corners_[k].x(), corners_[k].y(), 0.0));
-            colours->InsertNextTypedTuple(colours_[t].data());
-        }
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+        if (k % 3 == 0) triangles->InsertNextCell(3);
+        triangles->InsertCellPoint(points->InsertNextPoint(corners_[k].x(), corners_[k].y(), 0.0));
+        colours->InsertNextTypedTuple(colours_[k / 3].data());
     }
     vtkNew<vtkPolyData> shapes;
     shapes->SetPoints(points);
@@ -163,10 +160,14 @@ void Page::add_texts(vtkRenderer& renderer) const {
     }
 }
 
+void Page::add_to(vtkRenderer& renderer) const {
+    if (!colours_.empty()) add_shapes(renderer);
+    add_texts(renderer);
+}
+
 vtkSmartPointer<vtkImageData> Page::draw(Graphics& graphics) const {
     vtkNew<vtkRenderer> renderer;
-    add_shapes(*renderer);
-    add_texts(*renderer);
+    add_to(*renderer);
     return draw_scene(graphics, *renderer, width_, height_);
 }
 

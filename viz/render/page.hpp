@@ -49,6 +49,8 @@ class Page {
     void rectangle(const Vec2& low, const Vec2& high, Colour colour);
     void text(const Vec2& at, std::string words, const TextStyle& style);
 
+    /// Adds what is on the page to a scene.
+    void add_to(vtkRenderer& renderer) const;
     vtkSmartPointer<vtkImageData> draw(Graphics& graphics) const;
 
   private:

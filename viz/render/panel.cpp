@@ -96,6 +96,8 @@ class Placement {
 void draw_grains(Page& page, const Frame& frame, const PanelScale& scale, const Placement& place) {
     const auto outlines = grain_outlines(frame);
     const auto values = field_values(frame, scale.field);
+    const double outline_width =
+        std::min(thickest_outline, outline_share * mean_diameter(frame) * scale.pixels_per_metre);
     for (std::size_t g = 0; g < outlines.size(); ++g) {
         const auto polygon = place(outlines[g]);
         page.fill(polygon, viridis(scale.colours.fraction(values[g])));
@@ -107,9 +109,11 @@ void draw_grains(Page& page, const Frame& frame, const PanelScale& scale, const 
 std::vector<Chain> make_chains(const Frame& frame, const PanelScale& scale, const Placement& place) {
     std::vector<Chain> chains;
     if (!frame.contacts || scale.widest_force <= 0.0) return chains;
-    const auto lines = cell_points(*frame.contacts, *frame.contacts->GetLines());
+    auto lines = cell_points(*frame.contacts, *frame.contacts->GetLines());
     const auto forces = contact_forces(frame);
+    const auto is_wall = scalar_array(*frame.contacts, "is_wall");
     for (std::size_t k = 0; k < lines.size(); ++k) {
+        if (is_wall.at(k) != 0.0) lines[k].resize(2);  // a chain ends at the wall
         const double width = scale.widest_line * std::min(1.0, forces[k] / scale.widest_force);
         if (width >= thinnest_chain) chains.push_back({place(lines[k]), width});
     }
@@ -166,7 +170,10 @@ Extent frame_extent(const Frame& frame) {
 }
 
 void draw_chains(Page& page, std::span<const Chain> chains) {
-    for (const Chain& chain : chains) page.stroke(chain.line, chain.width + 2.0, white, false);
+    for (const Chain& chain : chains) {
+        const double edge = std::min(thickest_edge, 0.3 * chain.width);
+        page.stroke(chain.line, chain.width + 2.0 * edge, white, false);
+    }
     for (const Chain& chain : chains) page.stroke(chain.line, chain.width, black, false);
 }
 

@@ -4,9 +4,11 @@
 #include <vtkBrush.h>
 #include <vtkChartLegend.h>
 #include <vtkDoubleArray.h>
+#include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlotArea.h>
 #include <vtkPlotLine.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
@@ -15,8 +17,8 @@
 #include <cmath>
 #include <utility>
 
-#include "viz/render/page.hpp"
 #include "viz/render/plot_data.hpp"
+#include "viz/render/scale.hpp"
 
 namespace softgrain {
 namespace {
@@ -30,6 +32,12 @@ constexpr std::array<Colour, 7> palette{{{0, 114, 178, 255},
                                          {230, 159, 0, 255},
                                          {86, 180, 233, 255}}};
 constexpr std::uint8_t band_opacity = 50;
+/// Around the chart, times the font size.
+constexpr double room_left = 2.0, room_right = 1.2, room_below = 2.0, room_above = 3.0;
+
+double font_size(const PlotSpec& spec) {
+    return std::min(spec.width / 50.0, spec.height / 36.0);
+}
 
 vtkSmartPointer<vtkTable> make_table(
     std::initializer_list<std::pair<const char*, const std::vector<double>*>> columns) {
@@ -99,15 +107,28 @@ void add_line(vtkChartXY& chart, const PlotSeries& series, Colour colour, double
     plot->SetMarkerSize(static_cast<float>(0.55 * font));
 }
 
+/// Few round ticks; the chart's own are many and of uneven length. Logarithmic axes keep the chart's.
+void set_ticks(vtkAxis& axis, const PlotRange& range) {
+    const auto ticks = round_ticks(range.min, range.max);
+    vtkNew<vtkDoubleArray> positions;
+    vtkNew<vtkStringArray> labels;
+    for (const double tick : ticks) {
+        positions->InsertNextValue(tick);
+        labels->InsertNextValue(tick_text(tick, ticks.size() > 1 ? ticks[1] - ticks[0] : tick));
+    }
+    axis.SetCustomTickPositions(positions, labels);
+}
+
 void set_axis(vtkAxis& axis, const PlotAxis& spec, const PlotRange& range, double font) {
-    axis.SetTitle(spec.label);
+    axis.SetTitle("");
     axis.SetLogScale(spec.logarithmic);
     axis.SetBehavior(vtkAxis::FIXED);
+    axis.SetLabelOffset(static_cast<float>(0.45 * font));
     axis.SetUnscaledRange(range.min, range.max);
-    set_font(*axis.GetTitleProperties(), font, false);
     set_font(*axis.GetLabelProperties(), 0.9 * font, false);
     axis.GetGridPen()->SetColor(225, 225, 225);
     axis.GetGridPen()->SetWidth(1.0F);
+    if (!spec.logarithmic) set_ticks(axis, range);
     axis.GetPen()->SetWidth(static_cast<float>(0.07 * font));
 }
 
@@ -138,10 +159,15 @@ void place_legend(vtkChartXY& chart, const PlotSpec& spec, double font) {
 }  // namespace
 
 vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
-    const double font = std::min(spec.width / 50.0, spec.height / 36.0);
+    const double font = font_size(spec);
     auto chart = vtkSmartPointer<vtkChartXY>::New();
-    chart->SetTitle(spec.title);
-    set_font(*chart->GetTitleProperties(), 1.15 * font, true);
+    const float bottom = static_cast<float>(room_below * font);
+    const float left = static_cast<float>(room_left * font);
+    const float right = static_cast<float>(room_right * font);
+    const float top = static_cast<float>((spec.title.empty() ? room_right : room_above) * font);
+    chart->SetAutoSize(false);
+    chart->SetSize(vtkRectf(left, bottom, static_cast<float>(spec.width) - left - right,
+                            static_cast<float>(spec.height) - bottom - top));
     set_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec.x, x_range(spec), font);
     set_axis(*chart->GetAxis(vtkAxis::LEFT), spec.y, y_range(spec), font);
     std::size_t number = 0;
@@ -154,6 +180,18 @@ vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
     }
     place_legend(*chart, spec, font);
     return chart;
+}
+
+Page make_titles(const PlotSpec& spec) {
+    const double font = font_size(spec);
+    Page page(spec.width, spec.height);
+    page.text({spec.width / 2.0, spec.height - 0.5 * room_above * font}, spec.title,
+              {1.15 * font, Align::centre, Align::centre, false, true});
+    page.text({spec.width / 2.0, 0.6 * room_below * font}, spec.x.label,
+              {font, Align::centre, Align::centre});
+    page.text({0.6 * room_left * font, spec.height / 2.0}, spec.y.label,
+              {font, Align::centre, Align::centre, true});
+    return page;
 }
 
 }  // namespace softgrain

@@ -38,6 +38,7 @@ void draw_plot(const fs::path& spec_file, const fs::path& out) {
     vtkNew<vtkRenderer> renderer;
     renderer->AddActor(actor);
     actor->GetScene()->SetRenderer(renderer);
+    make_titles(spec).add_to(*renderer);
     const auto graphics = open_graphics();
     const auto image = draw_scene(*graphics, *renderer, spec.width, spec.height);
     if (out.has_parent_path()) make_directories(out.parent_path());

@@ -10,7 +10,7 @@ namespace softgrain {
 namespace {
 
 constexpr double tallest_panel = 1.4;  ///< times its width
-constexpr double widest_chain = 0.18;  ///< times the mean diameter of the grains
+constexpr double widest_chain = 0.16;  ///< times the mean diameter of the grains
 
 /// Sizes of everything on the page [pixels].
 struct Layout {
@@ -27,7 +27,7 @@ Layout make_layout(const Sheet& sheet, const SheetScale& scale, int width) {
     const auto rows = static_cast<double>(sheet.row_labels.size());
     const auto columns = static_cast<double>(sheet.column_labels.size());
     Layout l{};
-    l.font = width / (columns > 1.0 ? 76.0 : 52.0);
+    l.font = columns > 1.0 ? width / std::max(76.0, 19.0 * columns) : width / 52.0;
     l.margin = 1.2 * l.font;
     l.left = is_single(sheet) ? 0.0 : 2.2 * l.font;
     l.gap = 1.6 * l.font;

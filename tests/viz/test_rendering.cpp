@@ -1,0 +1,232 @@
+// Pictures made by softgrain-render in a process of its own, with each kind of off-screen graphics.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "hand_made_grains.hpp"
+#include "picture.hpp"
+#include "viz/client.hpp"
+#include "viz/render/scale.hpp"
+#include "viz/writers/polygon_shape.hpp"
+#include "viz/writers/writers.hpp"
+
+namespace softgrain {
+namespace {
+namespace fs = std::filesystem;
+
+class Rendering : public testing::TestWithParam<const char*> {
+  protected:
+    void SetUp() override {
+        ::setenv("SOFTGRAIN_RENDER_EXE", SOFTGRAIN_RENDER_EXE, 1);
+        ::setenv("SOFTGRAIN_RENDER", GetParam(), 1);
+        ::unsetenv("DISPLAY");
+    }
+    /// A machine may lack one kind of graphics; the renderer then says so before it draws.
+    bool missing(const std::optional<std::string>& error) const {
+        return error &&
+               (error->find("softgrain-render: EGL:") == 0 || error->find("softgrain-render: Xvfb:") == 0);
+    }
+    TemporaryFolder folder;
+};
+
+/// From metres to pixels on a picture of one panel, from the corners of its walls: the outermost black frame.
+struct PanelOnPicture {
+    double scale, left, bottom;
+
+    PanelOnPicture(const Picture& picture, const Box& box) {
+        const auto dark = [&](int x, int y) { return is_near(picture.pixel(x, y), black, 60); };
+        const auto dark_in_column = [&](int x) {
+            int count = 0;
+            for (int y = 0; y < picture.height(); ++y) count += dark(x, y) ? 1 : 0;
+            return count > picture.height() / 3;
+        };
+        int x_low = 0, x_high = picture.width() - 1;
+        while (x_low < x_high && !dark_in_column(x_low)) ++x_low;
+        while (x_low < x_high && !dark_in_column(x_high)) --x_high;
+        scale = (x_high - x_low + 1 - 2 * wall) / box.width();
+        left = x_low + wall;
+        int y_low = 0;
+        while (y_low < picture.height() - 1 && !dark_run(picture, x_low, x_high, y_low)) ++y_low;
+        bottom = y_low + wall;
+    }
+    std::array<int, 2> at(const Box& box, const Vec2& x) const {
+        return {static_cast<int>(std::lround(left + scale * (x.x() - box.position[0]))),
+                static_cast<int>(std::lround(bottom + scale * (x.y() - box.position[2])))};
+    }
+
+  private:
+    static constexpr int wall = 4;  ///< width of its line [pixels]
+    static bool dark_run(const Picture& picture, int x_low, int x_high, int y) {
+        for (int x = x_low; x <= x_high; ++x)
+            if (!is_near(picture.pixel(x, y), black, 60)) return false;
+        return true;
+    }
+};
+
+TEST_P(Rendering, GrainsHaveTheColoursOfTheirValues) {
+    const fs::path run = folder.path() / "run";
+    write_hand_made_run(run, 4, 3);
+    FramesSpec spec;
+    spec.runs = {{"hand made", run}};
+    spec.at = {0.0, 1.0};
+    spec.field = "temperature";
+    spec.range = {0.0, 15.0};
+    spec.out = folder.path() / "pictures";
+    spec.width = 800;
+    const auto error = render_frames(spec);
+    if (missing(error)) GTEST_SKIP() << *error;
+    ASSERT_FALSE(error) << *error;
+
+    const Picture picture(spec.out / "hand_made_2.png");
+    EXPECT_EQ(picture.width(), 800);
+    const HandMadeGrains state(4, 0.2, 40.0);
+    const PanelOnPicture panel(picture, state.box);
+    ASSERT_GT(panel.scale, 400.0);
+    for (std::size_t g = 0; g < state.centroid.size(); ++g) {
+        // A quarter of a grain aside of its centre, where no force chain runs.
+        const Vec2 aside = Vec2{0.05, 0.05} * (g % 4 == 3 ? 0.8 : 1.0);
+        const auto [x, y] = panel.at(state.box, state.centroid[g] + aside);
+        EXPECT_TRUE(is_near(picture.pixel(x, y), viridis(static_cast<double>(g) / 15.0), 4))
+            << "grain " << g << " at " << x << ", " << y;
+    }
+    // Between four rounded grains there is paper.
+    const auto [x, y] = panel.at(state.box, Vec2{0.5, 0.5});
+    EXPECT_TRUE(is_near(picture.pixel(x, y), white, 2));
+    // The strongest contact is drawn black over the grains, all along its line.
+    std::size_t strongest = 0;
+    for (std::size_t k = 0; k < state.contacts.size(); ++k)
+        if (state.contacts[k].normal_force() > state.contacts[strongest].normal_force()) strongest = k;
+    const GrainContact& contact = state.contacts[strongest];
+    const Vec2 from = state.centroid[static_cast<std::size_t>(contact.i)];
+    for (const double share : {0.3, 0.6}) {
+        const auto [cx, cy] = panel.at(state.box, from + share * (contact.point - from));
+        EXPECT_TRUE(is_near(picture.pixel(cx, cy), black, 10));
+    }
+    // Without stress there is no chain: the first frame's grains are whole.
+    const Picture first(spec.out / "hand_made_1.png");
+    const HandMadeGrains start(4, 0.0, 0.0);
+    const PanelOnPicture first_panel(first, start.box);
+    const auto [sx, sy] = first_panel.at(start.box, start.centroid[5]);
+    EXPECT_TRUE(is_near(first.pixel(sx, sy), viridis(5.0 / 15.0), 4));
+    // One scale: pixels per metre are the same at both stages, to the rounding of the walls' pixels.
+    EXPECT_NEAR(first_panel.scale / panel.scale, 1.0, 0.01);
+
+    const Picture sheet(spec.out / "sheet.png");
+    EXPECT_EQ(sheet.width(), 800);
+    EXPECT_GT(sheet.share_of(viridis(0.0), 4), 0.003);
+    EXPECT_LT(sheet.share_of(white, 2), 0.8);
+}
+
+TEST_P(Rendering, GrainsWithoutOutlinesAreDiscs) {
+    const fs::path run = folder.path() / "run";
+    const HandMadeGrains state(3, 0.1, 1.0);
+    GrainWriter(run, Need::area).observe(state.view(), frame_sample(0));
+    FramesSpec spec;
+    spec.runs = {{"points", run}};
+    spec.at = {0.0};
+    spec.field = "grain";
+    spec.range = {0.0, 8.0};
+    spec.out = folder.path();
+    spec.width = 600;
+    const auto error = render_frames(spec);
+    if (missing(error)) GTEST_SKIP() << *error;
+    ASSERT_FALSE(error) << *error;
+    EXPECT_GT(Picture(spec.out / "points_1.png").share_of(viridis(0.5), 4), 0.02);
+}
+
+TEST_P(Rendering, PlotShowsEverySeries) {
+    PlotSpec spec;
+    spec.title = "Test";
+    spec.x.label = "packing fraction";
+    spec.y.label = "mean stress [N/m]";
+    spec.width = 800;
+    spec.height = 600;
+    write_hand_made_run(folder.path() / "run", 3, 4);
+    PlotSeries from_file;
+    from_file.label = "from a file";
+    from_file.csv = folder.path() / "run/history.csv";
+    from_file.x_column = "packing_fraction";
+    from_file.y_column = "mean_stress";
+    PlotSeries inline_numbers;
+    inline_numbers.label = "band";
+    inline_numbers.x = {0.7, 0.8, 0.9};
+    inline_numbers.y = {0.001, 0.01, 0.015};
+    inline_numbers.lower = {0.0, 0.008, 0.012};
+    inline_numbers.upper = {0.002, 0.012, 0.018};
+    inline_numbers.line = LineStyle::none;
+    inline_numbers.marker = MarkerStyle::square;
+    spec.series = {from_file, inline_numbers};
+    for (const bool logarithmic : {false, true}) {
+        spec.y.logarithmic = logarithmic;
+        const fs::path out = folder.path() / "plots/stress.png";
+        const auto error = render_plot(spec, out);
+        if (missing(error)) GTEST_SKIP() << *error;
+        ASSERT_FALSE(error) << *error;
+        const Picture picture(out);
+        EXPECT_EQ(picture.width(), 800);
+        EXPECT_EQ(picture.height(), 600);
+        EXPECT_GT(picture.share_of({0, 114, 178, 255}, 8), 3e-4);    // the line: some 400 x 2 pixels
+        EXPECT_GT(picture.share_of({213, 94, 0, 255}, 8), 2e-4);     // three squares
+        EXPECT_GT(picture.share_of({247, 223, 205, 255}, 8), 2e-3);  // the band: 50 of 255 parts
+        EXPECT_GT(picture.share_of(white, 2), 0.7);
+        fs::remove(out);
+    }
+    EXPECT_TRUE(fs::exists(folder.path() / "plots/stress.json"));
+}
+
+TEST_P(Rendering, TruncatedFrameIsNamed) {
+    write_hand_made_run(folder.path() / "run", 3, 1);
+    const fs::path frame = folder.path() / "run/contacts/contacts_000000.vtp";
+    fs::resize_file(frame, fs::file_size(frame) / 2);
+    FramesSpec spec;
+    spec.runs = {{"a", folder.path() / "run"}};
+    spec.out = folder.path();
+    const auto error = render_frames(spec);
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->find("contacts_000000.vtp: is cut short"), std::string::npos) << *error;
+}
+
+INSTANTIATE_TEST_SUITE_P(Graphics, Rendering, testing::Values("egl", "xvfb"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST(RenderingErrors, NoRendererIsToldToTheCaller) {
+    ::setenv("SOFTGRAIN_RENDER_EXE", "/nowhere/softgrain-render", 1);
+    const auto error = render_plot(PlotSpec{}, fs::temp_directory_path() / "softgrain-none/none.png");
+    fs::remove_all(fs::temp_directory_path() / "softgrain-none");
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->find("SOFTGRAIN_RENDER_EXE"), std::string::npos);
+}
+
+/// Exit code of a shell command with stderr in `messages`.
+int exit_code(const std::string& command, const fs::path& messages) {
+    const int status = std::system((command + " 2> " + messages.string()).c_str());
+    return WEXITSTATUS(status);
+}
+
+TEST(RenderingErrors, ExitCodesTellTheKindOfFailure) {
+    const TemporaryFolder folder;
+    const std::string program = SOFTGRAIN_RENDER_EXE;
+    const fs::path messages = folder.path() / "messages";
+    const std::string run = folder.path() / "run";
+    const std::string frames = program + " frames --run a=" + run + " --out " + folder.path().string();
+    EXPECT_EQ(exit_code(frames, messages), 2);  // no run there
+    write_hand_made_run(run, 2, 1);
+    EXPECT_EQ(exit_code(frames + " --field colour", messages), 2);
+    EXPECT_EQ(exit_code("SOFTGRAIN_RENDER=paint " + frames, messages), 2);
+    EXPECT_EQ(exit_code(program + " frames --out x", messages), 2);
+    EXPECT_EQ(exit_code(program + " --help > /dev/null", messages), 0);
+    // Neither libEGL nor Xvfb to be found.
+    const std::string bare = "env -u DISPLAY PATH=/nowhere __EGL_VENDOR_LIBRARY_DIRS=/nowhere ";
+    EXPECT_EQ(exit_code(bare + frames, messages), 4);
+    std::ifstream file(messages);
+    std::string line, more;
+    std::getline(file, line);
+    EXPECT_NE(line.find("no off-screen graphics"), std::string::npos) << line;
+    EXPECT_FALSE(std::getline(file, more)) << more;
+}
+
+}  // namespace
+}  // namespace softgrain

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "common/errors.hpp"
+#include "hand_made_grains.hpp"
+#include "viz/writers/writers.hpp"
+
+namespace softgrain {
+namespace {
+namespace fs = std::filesystem;
+
+vtkSmartPointer<vtkPolyData> read_back(const fs::path& path) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return reader->GetOutput();
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+double value(vtkPolyData& data, const char* name, std::size_t cell, int component = 0) {
+    vtkDataArray* array = data.GetCellData()->GetArray(name);
+    if (array == nullptr) throw std::runtime_error(std::string("no array ") + name);
+    return array->GetComponent(static_cast<vtkIdType>(cell), component);
+}
+
+std::string unit(vtkPolyData& data, const char* name) {
+    const char* text = data.GetCellData()->GetArray(name)->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    return text == nullptr ? "" : text;
+}
+
+Vec2 point(vtkPolyData& data, vtkIdType id) {
+    return {data.GetPoint(id)[0], data.GetPoint(id)[1]};
+}
+
+class WritersTest : public testing::Test {
+  protected:
+    TemporaryFolder folder;
+    fs::path run = folder.path() / "run";
+    HandMadeGrains grains{4, 0.1, 2.5};
+};
+
+TEST_F(WritersTest, GrainsComeBackAsTheyWere) {
+    GrainWriter writer(run, Need::all);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "grains/grains_000000.vtp");
+    const GrainView view = grains.view();
+    ASSERT_EQ(data->GetNumberOfPolys(), 16);
+    ASSERT_EQ(data->GetNumberOfPoints(), static_cast<vtkIdType>(view.outline_point.size()));
+    EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 2.5);
+    for (std::size_t g = 0; g < view.size(); ++g) {
+        const Mat2& s = view.stress[g];
+        EXPECT_EQ(value(*data, "grain", g), static_cast<double>(g));
+        EXPECT_EQ(value(*data, "mass", g), view.mass[g]);
+        EXPECT_EQ(value(*data, "area", g), view.area[g]);
+        EXPECT_EQ(value(*data, "reference_area", g), view.reference_area[g]);
+        EXPECT_EQ(value(*data, "velocity", g, 0), view.velocity[g].x());
+        EXPECT_EQ(value(*data, "velocity", g, 1), view.velocity[g].y());
+        EXPECT_EQ(value(*data, "mean_stress", g), (s(0, 0) + s(1, 1)) / 2.0);
+        EXPECT_EQ(value(*data, "stress", g, 0), s(0, 0));
+        EXPECT_EQ(value(*data, "stress", g, 1), s(0, 1));
+        EXPECT_EQ(value(*data, "stress", g, 3), s(0, 1));
+        EXPECT_EQ(value(*data, "stress", g, 4), s(1, 1));
+        EXPECT_EQ(value(*data, "stress", g, 8), 0.0);
+        EXPECT_EQ(value(*data, "temperature", g), static_cast<double>(g));
+        for (const int component : {0, 1}) {
+            EXPECT_EQ(value(*data, "stretch", g, component), grains.stretch[4 * g + component]);
+            EXPECT_EQ(value(*data, "stretch", g, 3 + component), grains.stretch[4 * g + 2 + component]);
+        }
+        const auto first = static_cast<std::size_t>(view.outline_offset[g]);
+        vtkCell* cell = data->GetCell(static_cast<vtkIdType>(g));
+        ASSERT_EQ(cell->GetNumberOfPoints(), view.outline_offset[g + 1] - view.outline_offset[g]);
+        for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k)
+            EXPECT_EQ(point(*data, cell->GetPointId(static_cast<int>(k))),
+                      view.outline_point[first + static_cast<std::size_t>(k)]);
+    }
+    EXPECT_STREQ(data->GetCellData()->GetTensors()->GetName(), "stress");
+    EXPECT_EQ(unit(*data, "mean_stress"), "N/m");
+    EXPECT_EQ(unit(*data, "temperature"), "K");
+}
+
+// Principal stresses 3 and 1 turned by 30 degrees: half their difference is 1 whatever the angle.
+TEST_F(WritersTest, DeviatoricStressIsHalfThePrincipalDifference) {
+    const double c = std::cos(0.5236), s = std::sin(0.5236);
+    const Mat2 turn = (Mat2() << c, -s, s, c).finished();
+    grains.stress[3] = turn * Vec2(3.0, 1.0).asDiagonal() * turn.transpose();
+    GrainWriter writer(run, Need::stress);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "grains/grains_000000.vtp");
+    EXPECT_NEAR(value(*data, "deviatoric_stress", 3), 1.0, 1e-14);  // rounding
+    EXPECT_NEAR(value(*data, "mean_stress", 3), 2.0, 1e-14);
+}
+
+TEST_F(WritersTest, WithoutOutlinesGrainsArePoints) {
+    GrainWriter writer(run, Need::area);
+    EXPECT_EQ(writer.need(frame_sample(0)), Need::area);
+    EXPECT_EQ(writer.need(Sample{}), Need::base);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "grains/grains_000000.vtp");
+    EXPECT_EQ(data->GetNumberOfPolys(), 0);
+    ASSERT_EQ(data->GetNumberOfVerts(), 16);
+    EXPECT_EQ(point(*data, 5), grains.centroid[5]);
+    EXPECT_EQ(data->GetCellData()->GetArray("stress"), nullptr);
+    EXPECT_EQ(value(*data, "area", 5), grains.area[5]);
+}
+
+TEST_F(WritersTest, ContactsComeBackAsTheyWere) {
+    ContactWriter writer(run);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "contacts/contacts_000000.vtp");
+    ASSERT_EQ(data->GetNumberOfLines(), 2 * 4 * 3 + 4 * 4);
+    int walls = 0;
+    for (std::size_t k = 0; k < grains.contacts.size(); ++k) {
+        const GrainContact& c = grains.contacts[k];
+        vtkCell* line = data->GetCell(static_cast<vtkIdType>(k));
+        ASSERT_EQ(line->GetNumberOfPoints(), 3);
+        EXPECT_EQ(point(*data, line->GetPointId(0)), grains.centroid[static_cast<std::size_t>(c.i)]);
+        EXPECT_EQ(point(*data, line->GetPointId(1)), c.point);
+        const Vec2 end = point(*data, line->GetPointId(2));
+        if (c.with_wall()) {
+            ++walls;
+            const int axis = wall_axis(c.wall());
+            EXPECT_EQ(end[axis], grains.box.position[static_cast<std::size_t>(c.wall())]);
+            EXPECT_EQ(end[1 - axis], c.point[1 - axis]);
+        } else {
+            EXPECT_EQ(end, grains.centroid[static_cast<std::size_t>(c.j)]);
+        }
+        EXPECT_EQ(value(*data, "is_wall", k), c.with_wall() ? 1.0 : 0.0);
+        EXPECT_EQ(value(*data, "grain_i", k), c.i);
+        EXPECT_EQ(value(*data, "grain_j", k), c.j);
+        EXPECT_EQ(value(*data, "contact_length", k), c.length);
+        EXPECT_GT(value(*data, "normal_force", k), 0.0);
+        // The hand-made tangential force is 5 % of the normal one; 1e-12: rounding.
+        EXPECT_NEAR(value(*data, "tangential_force", k) / value(*data, "normal_force", k), 0.05, 1e-12);
+        EXPECT_NEAR(std::hypot(value(*data, "force", k, 0), value(*data, "force", k, 1)),
+                    std::hypot(1.0, 0.05) * value(*data, "normal_force", k), 1e-15);
+    }
+    EXPECT_EQ(walls, 16);
+    EXPECT_EQ(unit(*data, "normal_force"), "N");
+}
+
+TEST_F(WritersTest, WallsCarryForceAndStress) {
+    WallWriter writer(run);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "walls/walls_000000.vtp");
+    ASSERT_EQ(data->GetNumberOfLines(), 4);
+    for (int wall = 0; wall < 4; ++wall) {
+        const auto w = static_cast<std::size_t>(wall);
+        double bounds[6];
+        data->GetCellBounds(wall, bounds);
+        const int axis = wall_axis(wall);
+        EXPECT_EQ(bounds[2 * axis], grains.box.position[w]);
+        EXPECT_EQ(bounds[2 * axis + 1], grains.box.position[w]);
+        EXPECT_NEAR(bounds[3 - 2 * axis] - bounds[2 - 2 * axis], 0.9, 1e-15);
+        EXPECT_EQ(value(*data, "wall_force", w, axis), grains.wall_force[w][axis]);
+        const double pushed_outward = grains.wall_force[w].norm();
+        EXPECT_DOUBLE_EQ(value(*data, "normal_force", w), pushed_outward);
+        EXPECT_DOUBLE_EQ(value(*data, "wall_stress", w), pushed_outward / 0.9);
+    }
+}
+
+TEST_F(WritersTest, CollectionListsEveryFrame) {
+    WallWriter writer(run);
+    for (int k = 0; k < 3; ++k) {
+        writer.observe(HandMadeGrains(2, 0.05 * k, 0.1 * k).view(), frame_sample(k));
+        Sample between = frame_sample(k);
+        between.is_frame = false;
+        writer.observe(grains.view(), between);
+    }
+    EXPECT_EQ(read_text(run / "walls.pvd"),
+              "<?xml version=\"1.0\"?>\n"
+              "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+              "  <Collection>\n"
+              "    <DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"walls/walls_000000.vtp\"/>\n"
+              "    <DataSet timestep=\"0.1\" group=\"\" part=\"0\" file=\"walls/walls_000001.vtp\"/>\n"
+              "    <DataSet timestep=\"0.2\" group=\"\" part=\"0\" file=\"walls/walls_000002.vtp\"/>\n"
+              "  </Collection>\n</VTKFile>\n");
+}
+
+TEST_F(WritersTest, ResumeKeepsTheFramesOfTheCheckpoint) {
+    {
+        ContactWriter writer(run);
+        for (int k = 0; k < 4; ++k)
+            writer.observe(HandMadeGrains(2, 0.05 * k, 1.0 * k).view(), frame_sample(k));
+    }
+    ContactWriter again(run);
+    again.resume(std::vector<double>{0.0, 1.0});
+    EXPECT_FALSE(fs::exists(run / "contacts/contacts_000002.vtp"));
+    EXPECT_EQ(read_text(run / "contacts.pvd").find("000002"), std::string::npos);
+    again.observe(HandMadeGrains(2, 0.15, 7.0).view(), frame_sample(2));
+    const std::string index = read_text(run / "contacts.pvd");
+    EXPECT_NE(index.find("timestep=\"1\" group=\"\" part=\"0\" file=\"contacts/contacts_000001.vtp\""),
+              std::string::npos);
+    EXPECT_NE(index.find("timestep=\"7\" group=\"\" part=\"0\" file=\"contacts/contacts_000002.vtp\""),
+              std::string::npos);
+    EXPECT_EQ(index.find("000003"), std::string::npos);
+}
+
+TEST_F(WritersTest, ResumeWithoutTheFramesIsAnError) {
+    ContactWriter writer(run);
+    EXPECT_THROW(writer.resume(std::vector<double>{0.0}), OutputError);
+}
+
+TEST_F(WritersTest, AFreshRunRemovesOlderFrames) {
+    for (int frames : {3, 1}) {
+        WallWriter writer(run);
+        for (int k = 0; k < frames; ++k) writer.observe(grains.view(), frame_sample(k));
+    }
+    EXPECT_TRUE(fs::exists(run / "walls/walls_000000.vtp"));
+    EXPECT_FALSE(fs::exists(run / "walls/walls_000001.vtp"));
+    EXPECT_EQ(read_text(run / "walls.pvd").find("000001"), std::string::npos);
+}
+
+TEST_F(WritersTest, NotANumberDoesNotGetOut) {
+    grains.stress[2](0, 1) = std::numeric_limits<double>::quiet_NaN();
+    GrainWriter writer(run, Need::all);
+    try {
+        writer.observe(grains.view(), frame_sample(0));
+        FAIL() << "no error";
+    } catch (const DivergedError& error) {
+        EXPECT_EQ(error.grain, 2);
+        EXPECT_EQ(error.quantity, "stress");
+        EXPECT_EQ(error.time, 2.5);
+    }
+    grains.contacts[1].force.x() = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(ContactWriter(run).observe(grains.view(), frame_sample(0)), DivergedError);
+    grains.wall_force[0].x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(WallWriter(run).observe(grains.view(), frame_sample(0)), DivergedError);
+}
+
+}  // namespace
+}  // namespace softgrain
