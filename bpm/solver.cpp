@@ -148,9 +148,9 @@ void BpmSolver::advance(const WallMotion& walls, double dt) {
 
 void BpmSolver::step(const WallMotion& walls, double h) {
     attraction_.forces(x_, time_, force_);
-    for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
     v_before_ = v_;
     rim_speed_before_ = rim_speed_;
+    for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
     contact_result_ = contacts_.solve(discs(), walls, h);
     watch(h);
     for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
@@ -173,10 +173,12 @@ void BpmSolver::step(const WallMotion& walls, double h) {
 void BpmSolver::account(const WallMotion& walls, double h) {
     double work = 0.0;
     for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));
-    // Kinetic energy that the impulses p gave the discs: p.(v- + v+)/2, with p = m (v+ - v-).
+    // Kinetic energy that the contact impulses p = m (v+ - v-) - h F gave the discs over the step: p.(v- +
+    // v+)/2.
     double given = 0.0;
     for (std::size_t d = 0; d < x_.size(); ++d) {
-        given += 0.5 * mass_[d] * (v_[d] - v_before_[d]).dot(v_[d] + v_before_[d]);
+        const Vec2 impulse = mass_[d] * (v_[d] - v_before_[d]) - h * force_[d];
+        given += 0.5 * impulse.dot(v_[d] + v_before_[d]);
         given +=
             0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
     }
