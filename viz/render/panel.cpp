@@ -17,9 +17,11 @@ namespace softgrain {
 namespace {
 
 constexpr Colour outline_colour{45, 45, 45, 255};
-constexpr double outline_width = 1.2;   ///< [pixels]
-constexpr double wall_width = 4.0;      ///< [pixels]
-constexpr double thinnest_chain = 0.6;  ///< thinner lines are not drawn [pixels]
+constexpr double outline_share = 0.025;   ///< width of an outline, times the mean diameter of the grains
+constexpr double thickest_outline = 1.4;  ///< [pixels]
+constexpr double thickest_edge = 1.0;     ///< light edge of a chain, on each side [pixels]
+constexpr double wall_width = 4.0;        ///< [pixels]
+constexpr double thinnest_chain = 0.6;    ///< thinner lines are not drawn [pixels]
 constexpr int disc_corners = 48;
 
 vtkDataArray* find_array(const Frame& frame, const std::string& name) {
