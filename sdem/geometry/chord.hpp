@@ -2,7 +2,7 @@
 // Exact contact of two ellipses: the chord between the two points where their outlines cross.
 //
 // The larger grain becomes the unit circle: with B = A_i^-1 A_j and d = A_i^-1 (c_j - c_i), a point u of j's
-// unit circle lies on i where g(u) = |d + B u|^2 - 1 = 0. All steps turn u by (u + s t)/sqrt(1 + s^2), so no
+// unit circle lies on i where g(u) = |d + B u|^2 - 1 = 0. Steps turn u by 2 atan(s/2) = rational, so no
 // trigonometric function is called.
 #include <algorithm>
 #include <cmath>
@@ -38,10 +38,11 @@ namespace detail {
 
 struct Unit {
     double x, y;
-    /// Turned by atan(s), |s| < 1.
-    Unit turned(double s) const {
-        const double scale = 1.0 / std::sqrt(1.0 + s * s);
-        return {scale * (x - s * y), scale * (y + s * x)};
+    /// Turned by 2 atan(num/den), with a single division.
+    Unit turned(double num, double den) const {
+        const double scale = 1.0 / (den * den + num * num);
+        const double c = (den * den - num * num) * scale, s = 2.0 * num * den * scale;
+        return {c * x - s * y, c * y + s * x};
     }
 };
 inline double cross(Unit a, Unit b) {
@@ -89,30 +90,43 @@ struct Level {
     }
 };
 
-/// Newton on g' from u; false if it did not settle.
+/// Newton on g' from u; false if it did not settle. Steps are at most about half a radian.
 inline bool find_deepest(const Level& g, Unit& u) {
-    constexpr double settled = 1e-4;  // the next error is its square
+    constexpr double largest = 0.25, settled = 5e-5;  // half steps; the next error is the square
     for (int k = 0; k < 30; ++k) {
         const double slope = g.slope(u), curvature = g.curvature(u);
-        const double step =
-            curvature > 0.0 ? std::clamp(-slope / curvature, -0.5, 0.5) : std::copysign(0.5, -slope);
-        u = u.turned(step);
-        if (std::abs(step) < settled) return true;
+        const double limit = largest * std::abs(curvature);
+        double num = -0.5 * slope, den = curvature;
+        if (!(curvature > 0.0) || std::abs(num) > limit) num = std::copysign(largest, -slope), den = 1.0;
+        u = u.turned(num, den);
+        if (std::abs(num) < settled * den) return true;
     }
     return false;
 }
 
-/// Newton on g from a first guess at half opening angle asin(limit/0.5). Steps are clamped: without that,
-/// tiny overlaps swap the two roots.
-inline bool find_root(const Level& g, Unit& u, double limit) {
-    const double settled = 2e-7 * limit + 1e-15 / limit;
+/// One Halley step on g; returns whether it was small enough to be the last: the next error is its cube.
+inline bool improve_root(const Level& g, Unit& u, double limit, double settled) {
+    const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
+    const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;  // B t
+    const double ux = wx - g.dx, uy = wy - g.dy;                              // B u
+    const double value = wx * wx + wy * wy - 1.0;
+    const double slope = wx * tx + wy * ty;                          // g'/2
+    const double curvature = tx * tx + ty * ty - wx * ux - wy * uy;  // g''/2
+    // s = -g g' / (g'^2 - g g''/2), turned by 2 atan(s/2).
+    double num = -value * slope, den = 4.0 * slope * slope - value * curvature;
+    if (!(std::abs(num) <= limit * std::abs(den))) num = std::copysign(limit, -value * slope), den = 1.0;
+    u = u.turned(num, den);
+    return std::abs(num) <= settled * std::abs(den);
+}
+
+/// Both roots from first guesses at sin(psi) = opening. Half steps are clamped to a quarter of it: without
+/// that, tiny overlaps swap the two roots.
+inline bool find_roots(const Level& g, Unit& a, Unit& b, double opening) {
+    const double limit = 0.25 * opening, settled = 2e-5 * limit + 1e-15 / limit;
     for (int k = 0; k < 20; ++k) {
-        const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
-        const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;
-        const double value = wx * wx + wy * wy - 1.0;
-        const double step = std::clamp(-0.5 * value / (wx * tx + wy * ty), -limit, limit);
-        u = u.turned(step);
-        if (k >= 1 && std::abs(step) <= settled) return true;
+        const bool a_settled = improve_root(g, a, limit, settled),
+                   b_settled = improve_root(g, b, limit, settled);
+        if (a_settled && b_settled) return true;
     }
     return false;
 }
@@ -182,7 +196,7 @@ inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, Vec2& deepest
     const double cos0 = 1.0 - versine, sin0 = std::sqrt(versine * (2.0 - versine));
     Unit a{u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
     Unit b{u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
-    const bool found = find_root(g, a, 0.5 * sin0) && find_root(g, b, 0.5 * sin0);
+    const bool found = find_roots(g, a, b, sin0);
     if (!found || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0)) return general_chord(g, i, j, deepest);
     return finish(g, i, j, a, b, Overlap::chord);
 }
