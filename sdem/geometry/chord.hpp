@@ -34,10 +34,24 @@ struct Chord {
     bool touching() const { return overlap == Overlap::chord || overlap == Overlap::four_points; }
 };
 
+/// What a contact remembers for the next call, in the unit frame of the smaller grain: the ends of its chord,
+/// both the deepest direction while apart, zero for a cold start.
+struct WarmStart {
+    Vec2 a = Vec2::Zero(), b = Vec2::Zero();
+};
+
 namespace detail {
 
 struct Unit {
     double x, y;
+    Unit(double ux, double uy) : x(ux), y(uy) {}
+    /// From a vector of length 1 but for rounding, which would add up over many calls.
+    explicit Unit(const Vec2& v) {
+        const double scale = 1.5 - 0.5 * (v.x() * v.x() + v.y() * v.y());
+        x = scale * v.x();
+        y = scale * v.y();
+    }
+    Vec2 vec() const { return {x, y}; }
     /// Turned by 2 atan(num/den), with a single division.
     Unit turned(double num, double den) const {
         const double scale = 1.0 / (den * den + num * num);
@@ -121,9 +135,9 @@ inline bool improve_root(const Level& g, Unit& u, double limit, double settled) 
 
 /// Both roots from first guesses at sin(psi) = opening. Half steps are clamped to a quarter of it: without
 /// that, tiny overlaps swap the two roots.
-inline bool find_roots(const Level& g, Unit& a, Unit& b, double opening) {
+inline bool find_roots(const Level& g, Unit& a, Unit& b, double opening, int steps) {
     const double limit = 0.25 * opening, settled = 2e-5 * limit + 1e-15 / limit;
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < steps; ++k) {
         const bool a_settled = improve_root(g, a, limit, settled),
                    b_settled = improve_root(g, b, limit, settled);
         if (a_settled && b_settled) return true;
@@ -135,7 +149,7 @@ inline bool find_roots(const Level& g, Unit& a, Unit& b, double opening) {
 Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap);
 
 /// Scan and bisection: any number of intersections, any strain. Slow.
-Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, Vec2& deepest);
+Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, WarmStart& warm);
 
 inline Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap) {
     Chord c;
@@ -177,37 +191,53 @@ inline bool inside(const Ellipse& i, const Ellipse& j) {
     return i.det <= j.det && (j.inverse * (i.center - j.center)).squaredNorm() < 1.0;
 }
 
+/// Where the search for the deepest direction starts.
+inline Unit first_guess(const Level& g, const WarmStart& warm) {
+    const Vec2 middle = warm.a + warm.b;
+    const double norm = middle.norm();
+    if (norm > 0.1) return {middle.x() / norm, middle.y() / norm};
+    const double scale = -1.0 / std::sqrt(g.bx * g.bx + g.by * g.by);
+    return {scale * g.bx, scale * g.by};
+}
+
 /// i is the unit circle.
-inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
+inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, WarmStart& warm) {
     const Level g(i, j);
-    if (!g.has_one_minimum()) return general_chord(g, i, j, deepest);
-    Unit u{deepest.x(), deepest.y()};
-    if (u.x == 0.0 && u.y == 0.0) {
-        const double scale = -1.0 / std::sqrt(g.bx * g.bx + g.by * g.by);
-        u = {scale * g.bx, scale * g.by};
+    if (!g.has_one_minimum()) return general_chord(g, i, j, warm);
+
+    // From the last chord: with one minimum there are two roots at most, and the sign of g' tells which is
+    // which.
+    Unit a(warm.a), b(warm.b);
+    const double last = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    constexpr double smallest = 1e-3;
+    if (last > smallest && find_roots(g, a, b, last, 3) && g.slope(a) < 0.0 && g.slope(b) > 0.0) {
+        warm = {a.vec(), b.vec()};
+        return finish(g, i, j, a, b, Overlap::chord);
     }
-    if (!find_deepest(g, u)) return general_chord(g, i, j, deepest);
-    deepest = Vec2{u.x, u.y};
+
+    Unit u = first_guess(g, warm);
+    if (!find_deepest(g, u)) return general_chord(g, i, j, warm);
+    warm = {u.vec(), u.vec()};
     const double lowest = g.value(u);
     if (lowest >= 0.0) return inside(i, j) ? Chord{Overlap::contained} : Chord{};
 
     // g ~ g_min + g'' (1 - cos psi) near its minimum gives the first guess of both roots.
     const double versine = std::min(-0.5 * lowest / g.curvature(u), 1.9);
     const double cos0 = 1.0 - versine, sin0 = std::sqrt(versine * (2.0 - versine));
-    Unit a{u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
-    Unit b{u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
-    const bool found = find_roots(g, a, b, sin0);
-    if (!found || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0)) return general_chord(g, i, j, deepest);
+    a = {u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
+    b = {u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
+    if (!find_roots(g, a, b, sin0, 20) || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0))
+        return general_chord(g, i, j, warm);
+    warm = {a.vec(), b.vec()};
     return finish(g, i, j, a, b, Overlap::chord);
 }
 
 }  // namespace detail
 
-/// Contact of i and j. `deepest` keeps the direction found (in the unit frame of the smaller grain) for the
-/// next call; zero asks for a cold start. Never NaN, never endless.
-inline Chord chord_of(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
-    if (i.radius >= j.radius) return detail::chord_from_circle(i, j, deepest);
-    Chord c = detail::chord_from_circle(j, i, deepest);
+/// Contact of i and j. Never NaN, never endless.
+inline Chord chord_of(const Ellipse& i, const Ellipse& j, WarmStart& warm) {
+    if (i.radius >= j.radius) return detail::chord_from_circle(i, j, warm);
+    Chord c = detail::chord_from_circle(j, i, warm);
     if (!c.touching()) return c;
     c.normal = -c.normal;
     std::swap(c.depth_i, c.depth_j);
