@@ -59,9 +59,9 @@ inline Vec2 reference_arm(const Ellipse& e, const Vec2& point) {
     return e.radius * (e.inverse * (point - e.center));
 }
 
-inline PairContact pair_contact(const Moving& i, const Moving& j, const Mollon2022& law, Vec2& deepest) {
+inline PairContact pair_contact(const Moving& i, const Moving& j, const Mollon2022& law, WarmStart& warm) {
     PairContact c;
-    const Chord chord = chord_of(i.shape, j.shape, deepest);
+    const Chord chord = chord_of(i.shape, j.shape, warm);
     c.overlap = chord.overlap;
     if (!chord.touching()) return c;
     c.normal = chord.normal;

@@ -172,24 +172,24 @@ void SoftDiscSolver::update_neighbors() {
 /// Warm starts move with their pairs.
 void SoftDiscSolver::rebuild_neighbors() {
     const std::vector<Pair> old_pairs(neighbors_.pairs().begin(), neighbors_.pairs().end());
-    const std::vector<Vec2> old_deepest = std::move(deepest_);
+    const std::vector<WarmStart> old_warm = std::move(warm_);
     double mean_radius = 0.0;
     for (double R : grains_.radius) mean_radius += R / static_cast<double>(size());
     neighbors_.build(grains_.position, reach_, options_.skin * mean_radius);
     pairs_of_.build(neighbors_.pairs(), size());
-    deepest_.assign(neighbors_.pairs().size(), Vec2::Zero());
+    warm_.assign(neighbors_.pairs().size(), WarmStart{});
     std::size_t o = 0;
-    for (std::size_t k = 0; k < deepest_.size(); ++k) {
+    for (std::size_t k = 0; k < warm_.size(); ++k) {
         const Pair& pair = neighbors_.pairs()[k];
         while (o < old_pairs.size() && old_pairs[o] < pair) ++o;
-        if (o < old_pairs.size() && old_pairs[o] == pair) deepest_[k] = old_deepest[o];
+        if (o < old_pairs.size() && old_pairs[o] == pair) warm_[k] = old_warm[o];
     }
-    pair_contact_.resize(deepest_.size());
+    pair_contact_.resize(warm_.size());
 }
 
 void SoftDiscSolver::evaluate_forces() {
     const Grains& s = grains_;
-    deepest_before_ = deepest_;
+    warm_before_ = warm_;
     const std::span<const Pair> pairs = neighbors_.pairs();
     const auto moving = [&](std::size_t g) {
         return Moving{shape_[g], s.velocity[g], s.F_rate[g], s.mass[g]};
@@ -202,10 +202,10 @@ void SoftDiscSolver::evaluate_forces() {
         const double reach = reach_[i] + reach_[j];
         if ((s.position[j] - s.position[i]).squaredNorm() >= reach * reach) {
             pair_contact_[k].overlap = Overlap::none;
-            deepest_[k].setZero();
+            warm_[k] = WarmStart{};
             continue;
         }
-        pair_contact_[k] = pair_contact(moving(i), moving(j), law_, deepest_[k]);
+        pair_contact_[k] = pair_contact(moving(i), moving(j), law_, warm_[k]);
         const PairContact& c = pair_contact_[k];
         const bool sound = c.overlap == Overlap::none || (c.touching() && c.force.stiffness > 0.0);
         if (!sound) bad_pair = std::min(bad_pair, k);
@@ -347,7 +347,8 @@ double SoftDiscSolver::stable_time_step() const {
         const double C = 2.0 * f * viscosity / m + options_.shape_damping * std::sqrt(law_.E / density_) / R;
         smallest = std::min(smallest, (std::sqrt(C * C + 4.0 * omega2) - C) / omega2);
     }
-    // The imposed dilation follows the caps with a delay that damping has to make good (measured, see README.md).
+    // The imposed dilation follows the caps with a delay that damping has to make good (measured, see
+    // README.md).
     const double delay = options_.incompressible && !rigid ? std::min(1.0, 0.25 + law_.damping) : 1.0;
     return options_.safety * delay * smallest;
 }

@@ -96,8 +96,7 @@ class SoftDiscSolver final : public Solver {
     std::vector<double> reach_;
     NeighborList neighbors_;
     PairsOfGrain pairs_of_;
-    std::vector<Vec2> deepest_,
-        deepest_before_;                     ///< [pairs] warm starts, after and before the last evaluation
+    std::vector<WarmStart> warm_, warm_before_;  ///< [pairs] after and before the last evaluation
     std::vector<PairContact> pair_contact_;  ///< [pairs]
     std::vector<WallContact> wall_contact_;  ///< [4 n], valid where wall_mask_ tells
     std::vector<std::uint8_t> wall_mask_;    ///< [n], bit w set if the grain touches wall w

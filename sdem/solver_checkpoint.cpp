@@ -42,7 +42,9 @@ void SoftDiscSolver::save(Checkpoint& to) const {
     to.put("sdem.F_rate", std::span<const Mat2>(grains_.F_rate));
     to.put("sdem.built_at", neighbors_.built_at());
     to.put("sdem.built_reach", neighbors_.built_reach());
-    to.put("sdem.deepest", std::span<const Vec2>(deepest_before_));
+    std::vector<Vec2> ends;
+    for (const WarmStart& warm : warm_before_) ends.insert(ends.end(), {warm.a, warm.b});
+    to.put("sdem.warm_start", std::span<const Vec2>(ends));
     to.put("sdem.caps_before", std::span<const double>(caps_before_));
     to.put("sdem.energy", std::array<double, 3>{ledger_.elastic, ledger_.external_work, ledger_.damping});
 }
@@ -71,7 +73,10 @@ void SoftDiscSolver::load(const Checkpoint& from) {
     neighbors_.build(built_at, built_reach, neighbors_.skin());
     pairs_of_.build(neighbors_.pairs(), n);
     pair_contact_.resize(neighbors_.pairs().size());
-    get_sized(from, "sdem.deepest", neighbors_.pairs().size(), deepest_);
+    std::vector<Vec2> ends;
+    get_sized(from, "sdem.warm_start", 2 * neighbors_.pairs().size(), ends);
+    warm_.resize(neighbors_.pairs().size());
+    for (std::size_t k = 0; k < warm_.size(); ++k) warm_[k] = {ends[2 * k], ends[2 * k + 1]};
     before_ = grains_.position;
     update_shapes(before_);
     update_neighbors();  // nothing to do for a state as it was saved

@@ -2,7 +2,7 @@
 // Exact contact of two ellipses: the chord between the two points where their outlines cross.
 //
 // The larger grain becomes the unit circle: with B = A_i^-1 A_j and d = A_i^-1 (c_j - c_i), a point u of j's
-// unit circle lies on i where g(u) = |d + B u|^2 - 1 = 0. All steps turn u by (u + s t)/sqrt(1 + s^2), so no
+// unit circle lies on i where g(u) = |d + B u|^2 - 1 = 0. Steps turn u by 2 atan(s/2) = rational, so no
 // trigonometric function is called.
 #include <algorithm>
 #include <cmath>
@@ -34,14 +34,29 @@ struct Chord {
     bool touching() const { return overlap == Overlap::chord || overlap == Overlap::four_points; }
 };
 
+/// What a contact remembers for the next call, in the unit frame of the smaller grain: the ends of its chord,
+/// both the deepest direction while apart, zero for a cold start.
+struct WarmStart {
+    Vec2 a = Vec2::Zero(), b = Vec2::Zero();
+};
+
 namespace detail {
 
 struct Unit {
     double x, y;
-    /// Turned by atan(s), |s| < 1.
-    Unit turned(double s) const {
-        const double scale = 1.0 / std::sqrt(1.0 + s * s);
-        return {scale * (x - s * y), scale * (y + s * x)};
+    Unit(double ux, double uy) : x(ux), y(uy) {}
+    /// From a vector of length 1 but for rounding, which would add up over many calls.
+    explicit Unit(const Vec2& v) {
+        const double scale = 1.5 - 0.5 * (v.x() * v.x() + v.y() * v.y());
+        x = scale * v.x();
+        y = scale * v.y();
+    }
+    Vec2 vec() const { return {x, y}; }
+    /// Turned by 2 atan(num/den), with a single division.
+    Unit turned(double num, double den) const {
+        const double scale = 1.0 / (den * den + num * num);
+        const double c = (den * den - num * num) * scale, s = 2.0 * num * den * scale;
+        return {c * x - s * y, c * y + s * x};
     }
 };
 inline double cross(Unit a, Unit b) {
@@ -89,30 +104,43 @@ struct Level {
     }
 };
 
-/// Newton on g' from u; false if it did not settle.
+/// Newton on g' from u; false if it did not settle. Steps are at most about half a radian.
 inline bool find_deepest(const Level& g, Unit& u) {
-    constexpr double settled = 1e-4;  // the next error is its square
+    constexpr double largest = 0.25, settled = 5e-5;  // half steps; the next error is the square
     for (int k = 0; k < 30; ++k) {
         const double slope = g.slope(u), curvature = g.curvature(u);
-        const double step =
-            curvature > 0.0 ? std::clamp(-slope / curvature, -0.5, 0.5) : std::copysign(0.5, -slope);
-        u = u.turned(step);
-        if (std::abs(step) < settled) return true;
+        const double limit = largest * std::abs(curvature);
+        double num = -0.5 * slope, den = curvature;
+        if (!(curvature > 0.0) || std::abs(num) > limit) num = std::copysign(largest, -slope), den = 1.0;
+        u = u.turned(num, den);
+        if (std::abs(num) < settled * den) return true;
     }
     return false;
 }
 
-/// Newton on g from a first guess at half opening angle asin(limit/0.5). Steps are clamped: without that,
-/// tiny overlaps swap the two roots.
-inline bool find_root(const Level& g, Unit& u, double limit) {
-    const double settled = 2e-7 * limit + 1e-15 / limit;
-    for (int k = 0; k < 20; ++k) {
-        const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
-        const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;
-        const double value = wx * wx + wy * wy - 1.0;
-        const double step = std::clamp(-0.5 * value / (wx * tx + wy * ty), -limit, limit);
-        u = u.turned(step);
-        if (k >= 1 && std::abs(step) <= settled) return true;
+/// One Halley step on g; returns whether it was small enough to be the last: the next error is its cube.
+inline bool improve_root(const Level& g, Unit& u, double limit, double settled) {
+    const double wx = g.dx + g.xx * u.x + g.xy * u.y, wy = g.dy + g.yx * u.x + g.yy * u.y;
+    const double tx = g.xy * u.x - g.xx * u.y, ty = g.yy * u.x - g.yx * u.y;  // B t
+    const double ux = wx - g.dx, uy = wy - g.dy;                              // B u
+    const double value = wx * wx + wy * wy - 1.0;
+    const double slope = wx * tx + wy * ty;                          // g'/2
+    const double curvature = tx * tx + ty * ty - wx * ux - wy * uy;  // g''/2
+    // s = -g g' / (g'^2 - g g''/2), turned by 2 atan(s/2).
+    double num = -value * slope, den = 4.0 * slope * slope - value * curvature;
+    if (!(std::abs(num) <= limit * std::abs(den))) num = std::copysign(limit, -value * slope), den = 1.0;
+    u = u.turned(num, den);
+    return std::abs(num) <= settled * std::abs(den);
+}
+
+/// Both roots from first guesses at sin(psi) = opening. Half steps are clamped to a quarter of it: without
+/// that, tiny overlaps swap the two roots.
+inline bool find_roots(const Level& g, Unit& a, Unit& b, double opening, int steps) {
+    const double limit = 0.25 * opening, settled = 2e-5 * limit + 1e-15 / limit;
+    for (int k = 0; k < steps; ++k) {
+        const bool a_settled = improve_root(g, a, limit, settled),
+                   b_settled = improve_root(g, b, limit, settled);
+        if (a_settled && b_settled) return true;
     }
     return false;
 }
@@ -121,7 +149,7 @@ inline bool find_root(const Level& g, Unit& u, double limit) {
 Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap);
 
 /// Scan and bisection: any number of intersections, any strain. Slow.
-Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, Vec2& deepest);
+Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, WarmStart& warm);
 
 inline Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, Unit b, Overlap overlap) {
     Chord c;
@@ -163,37 +191,53 @@ inline bool inside(const Ellipse& i, const Ellipse& j) {
     return i.det <= j.det && (j.inverse * (i.center - j.center)).squaredNorm() < 1.0;
 }
 
+/// Where the search for the deepest direction starts.
+inline Unit first_guess(const Level& g, const WarmStart& warm) {
+    const Vec2 middle = warm.a + warm.b;
+    const double norm = middle.norm();
+    if (norm > 0.1) return {middle.x() / norm, middle.y() / norm};
+    const double scale = -1.0 / std::sqrt(g.bx * g.bx + g.by * g.by);
+    return {scale * g.bx, scale * g.by};
+}
+
 /// i is the unit circle.
-inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
+inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, WarmStart& warm) {
     const Level g(i, j);
-    if (!g.has_one_minimum()) return general_chord(g, i, j, deepest);
-    Unit u{deepest.x(), deepest.y()};
-    if (u.x == 0.0 && u.y == 0.0) {
-        const double scale = -1.0 / std::sqrt(g.bx * g.bx + g.by * g.by);
-        u = {scale * g.bx, scale * g.by};
+    if (!g.has_one_minimum()) return general_chord(g, i, j, warm);
+
+    // From the last chord: with one minimum there are two roots at most, and the sign of g' tells which is
+    // which.
+    Unit a(warm.a), b(warm.b);
+    const double last = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    constexpr double smallest = 1e-3;
+    if (last > smallest && find_roots(g, a, b, last, 3) && g.slope(a) < 0.0 && g.slope(b) > 0.0) {
+        warm = {a.vec(), b.vec()};
+        return finish(g, i, j, a, b, Overlap::chord);
     }
-    if (!find_deepest(g, u)) return general_chord(g, i, j, deepest);
-    deepest = Vec2{u.x, u.y};
+
+    Unit u = first_guess(g, warm);
+    if (!find_deepest(g, u)) return general_chord(g, i, j, warm);
+    warm = {u.vec(), u.vec()};
     const double lowest = g.value(u);
     if (lowest >= 0.0) return inside(i, j) ? Chord{Overlap::contained} : Chord{};
 
     // g ~ g_min + g'' (1 - cos psi) near its minimum gives the first guess of both roots.
     const double versine = std::min(-0.5 * lowest / g.curvature(u), 1.9);
     const double cos0 = 1.0 - versine, sin0 = std::sqrt(versine * (2.0 - versine));
-    Unit a{u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
-    Unit b{u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
-    const bool found = find_root(g, a, 0.5 * sin0) && find_root(g, b, 0.5 * sin0);
-    if (!found || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0)) return general_chord(g, i, j, deepest);
+    a = {u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
+    b = {u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
+    if (!find_roots(g, a, b, sin0, 20) || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0))
+        return general_chord(g, i, j, warm);
+    warm = {a.vec(), b.vec()};
     return finish(g, i, j, a, b, Overlap::chord);
 }
 
 }  // namespace detail
 
-/// Contact of i and j. `deepest` keeps the direction found (in the unit frame of the smaller grain) for the
-/// next call; zero asks for a cold start. Never NaN, never endless.
-inline Chord chord_of(const Ellipse& i, const Ellipse& j, Vec2& deepest) {
-    if (i.radius >= j.radius) return detail::chord_from_circle(i, j, deepest);
-    Chord c = detail::chord_from_circle(j, i, deepest);
+/// Contact of i and j. Never NaN, never endless.
+inline Chord chord_of(const Ellipse& i, const Ellipse& j, WarmStart& warm) {
+    if (i.radius >= j.radius) return detail::chord_from_circle(i, j, warm);
+    Chord c = detail::chord_from_circle(j, i, warm);
     if (!c.touching()) return c;
     c.normal = -c.normal;
     std::swap(c.depth_i, c.depth_j);

@@ -45,9 +45,9 @@ Extrema extrema_of(const Level& g) {
 
 }  // namespace
 
-Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, Vec2& deepest) {
+Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, WarmStart& warm) {
     constexpr double tiny = 1e-12;
-    deepest = Vec2::Zero();
+    warm = WarmStart{};
     if (g.dx * g.dx + g.dy * g.dy < tiny * tiny) return Chord{Overlap::coincident};
 
     const auto value = [&](double angle) { return g.value(at(angle)); };
@@ -78,7 +78,7 @@ Chord general_chord(const Level& g, const Ellipse& i, const Ellipse& j, Vec2& de
         }
     };
     const Unit u = at(lowest);
-    deepest = Vec2{u.x, u.y};
+    warm = {u.vec(), u.vec()};
     const Unit a = at(bisect(value, lowest, outside(-1)));
     const Unit b = at(bisect(value, lowest, outside(+1)));
     return finish(g, i, j, a, b, crossings > 2 ? Overlap::four_points : Overlap::chord);

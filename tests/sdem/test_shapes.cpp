@@ -152,7 +152,7 @@ TEST(ClippedEllipse, SpecialCases) {
 TEST(ClippedEllipse, TwoGrainsCoverTheirUnion) {
     const Ellipse i = make_ellipse(Vec2::Zero(), Mat2::Identity(), 1.0);
     const Ellipse j = make_ellipse(Vec2{1.5, 0.2}, Mat2::Identity(), 0.8);
-    Vec2 deepest = Vec2::Zero();
+    WarmStart deepest;
     const Chord c = chord_of(i, j, deepest);
     const double d = j.center.norm(), r = 0.8;
     const double a = std::acos((d * d + 1.0 - r * r) / (2.0 * d)),

@@ -210,7 +210,7 @@ TEST(Neighbours, ARebuildKeepsEveryContact) {
         const Packing p = lattice(5);
         for (std::size_t i = 0; i < now.position.size(); ++i)
             for (std::size_t j = i + 1; j < now.position.size(); ++j) {
-                Vec2 cold = Vec2::Zero();
+                WarmStart cold;
                 expected += chord_of(make_ellipse(now.position[i], now.F[i], p.radius[i]),
                                      make_ellipse(now.position[j], now.F[j], p.radius[j]), cold)
                                 .touching();
