@@ -169,6 +169,14 @@ TEST(PlotDataTest, LogarithmicAxesDropWhatTheyCannotShow) {
     EXPECT_TRUE(std::isnan(spec.series[0].y[0]));
     EXPECT_TRUE(std::isnan(spec.series[0].y[1]));
     EXPECT_GT(y_range(spec).min, 0.0);
+    PlotSpec noise = spec_of({1.0, 2.0, 3.0}, {1e-17, 1e-3, 0.1});
+    noise.y.logarithmic = true;
+    PlotSpec wanted = noise;
+    wanted.y.min = 1e-18;
+    load_plot_data(noise, ".");
+    load_plot_data(wanted, ".");
+    EXPECT_GT(y_range(noise).min, 1e-4);
+    EXPECT_EQ(wanted.series[0].y[0], 1e-17);
     PlotSpec nothing = spec_of({1.0}, {-1.0});
     nothing.y.logarithmic = true;
     EXPECT_THROW(load_plot_data(nothing, "."), InputError);

@@ -139,6 +139,25 @@ TEST_P(Rendering, GrainsWithoutOutlinesAreDiscs) {
     EXPECT_GT(Picture(spec.out / "points_1.png").share_of(viridis(0.5), 4), 0.02);
 }
 
+TEST_P(Rendering, StagesByPackingFraction) {
+    write_hand_made_run(folder.path() / "run", 3, 3);
+    FramesSpec spec;
+    spec.runs = {{"one", folder.path() / "run"}, {"two", folder.path() / "run"}};
+    spec.at_packing_fraction = {0.5, 0.8};
+    spec.out = folder.path();
+    spec.width = 400;
+    const auto error = render_frames(spec);
+    if (missing(error)) GTEST_SKIP() << *error;
+    ASSERT_FALSE(error) << *error;
+    for (const char* name : {"one_1.png", "one_2.png", "two_1.png", "two_2.png", "sheet.png"})
+        EXPECT_EQ(Picture(folder.path() / name).width(), 400) << name;
+    spec.runs.pop_back();
+    fs::remove(folder.path() / "run/history.csv");
+    const auto without_history = render_frames(spec);
+    ASSERT_TRUE(without_history);
+    EXPECT_NE(without_history->find("use --at"), std::string::npos) << *without_history;
+}
+
 TEST_P(Rendering, PlotShowsEverySeries) {
     PlotSpec spec;
     spec.title = "Test";

@@ -16,6 +16,8 @@
 namespace softgrain {
 namespace {
 
+constexpr double rounding = 1e-9;  ///< of a mean stress, times the largest one
+
 RunReader open_run(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
@@ -65,7 +67,7 @@ std::vector<std::vector<Frame>> read_frames(const FramesRequest& request,
 
 SheetScale common_scale(const FramesRequest& request, const std::vector<std::vector<Frame>>& frames) {
     std::vector<double> values, forces;
-    SheetScale scale{request.field, field_unit(frames[0][0], request.field), {}, 0.0, Vec2::Zero(), 0.0};
+    SheetScale scale{request.field, field_unit(frames[0][0], request.field), {}, 0.0, Vec2::Zero(), 0.0, 0.0};
     double count = 0.0;
     for (const auto& row : frames)
         for (const Frame& frame : row) {
@@ -76,6 +78,8 @@ SheetScale common_scale(const FramesRequest& request, const std::vector<std::vec
             const Extent extent = frame_extent(frame);
             scale.extent = scale.extent.cwiseMax(extent.high - extent.low);
             scale.diameter += mean_diameter(frame);
+            if (std::isfinite(frame.mean_stress))
+                scale.no_stress = std::max(scale.no_stress, rounding * std::abs(frame.mean_stress));
             count += 1.0;
         }
     scale.diameter /= count;

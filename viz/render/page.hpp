@@ -25,7 +25,7 @@ inline constexpr Colour white{255, 255, 255, 255};
 enum class Align { low, centre, high };  ///< left or bottom, middle, right or top
 
 struct TextStyle {
-    double size = 24.0;  ///< height of the letters' box [pixels]
+    double size = 24.0;  ///< font size [pixels]
     Align horizontal = Align::low;
     Align vertical = Align::low;
     bool upright = false;  ///< turned by 90 degrees, read from below
@@ -44,7 +44,7 @@ class Page {
 
     /// A simple polygon, convex or not.
     void fill(std::span<const Vec2> polygon, Colour colour);
-    /// A line of this width with round joints.
+    /// A line of this width [pixels], its joints round if it is opaque and wide enough for that to show.
     void stroke(std::span<const Vec2> line, double width, Colour colour, bool closed);
     void rectangle(const Vec2& low, const Vec2& high, Colour colour);
     void text(const Vec2& at, std::string words, const TextStyle& style);

@@ -21,7 +21,8 @@ constexpr double outline_share = 0.025;   ///< width of an outline, times the me
 constexpr double thickest_outline = 1.4;  ///< [pixels]
 constexpr double thickest_edge = 1.0;     ///< light edge of a chain, on each side [pixels]
 constexpr double wall_width = 4.0;        ///< [pixels]
-constexpr double thinnest_chain = 0.6;    ///< thinner lines are not drawn [pixels]
+constexpr double thinnest_chain = 0.2;    ///< thinner lines are not drawn [pixels]
+constexpr double even_width = 1.5;        ///< [pixels]
 constexpr int disc_corners = 48;
 
 vtkDataArray* find_array(const Frame& frame, const std::string& name) {
@@ -172,11 +173,13 @@ Extent frame_extent(const Frame& frame) {
 }
 
 void draw_chains(Page& page, std::span<const Chain> chains) {
-    for (const Chain& chain : chains) {
-        const double edge = std::min(thickest_edge, 0.3 * chain.width);
-        page.stroke(chain.line, chain.width + 2.0 * edge, white, false);
-    }
-    for (const Chain& chain : chains) page.stroke(chain.line, chain.width, black, false);
+    // Below the width that pixels can show evenly, a line gets paler instead of thinner.
+    const auto stroke = [&](const Chain& chain, double extra, Colour colour) {
+        colour[3] = static_cast<std::uint8_t>(std::lround(255.0 * std::min(1.0, chain.width / even_width)));
+        page.stroke(chain.line, std::max(chain.width, even_width) + extra, colour, false);
+    };
+    for (const Chain& chain : chains) stroke(chain, 2.0 * std::min(thickest_edge, 0.3 * chain.width), white);
+    for (const Chain& chain : chains) stroke(chain, 0.0, black);
 }
 
 void draw_panel(Page& page, const Frame& frame, const PanelScale& scale, const Vec2& centre) {

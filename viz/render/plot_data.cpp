@@ -11,11 +11,13 @@
 namespace softgrain {
 namespace {
 
-constexpr double room = 0.04;  ///< left free at each end of an axis, times its length
+constexpr double room = 0.04;   ///< left free at each end of an axis, times its length
+constexpr double noise = 1e-6;  ///< on a logarithmic axis without min, times the largest value
 
-void drop_not_positive(std::vector<double>& values) {
+/// Replaces what a logarithmic axis cannot show, and rounding noise that would fill most of it, by nan.
+void drop_below(double floor, std::vector<double>& values) {
     for (double& v : values)
-        if (!(v > 0.0)) v = std::numeric_limits<double>::quiet_NaN();
+        if (!(v > 0.0 && v >= floor)) v = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Smallest and largest of the finite numbers so far.
@@ -31,6 +33,19 @@ struct Bounds {
         }
     }
 };
+
+Bounds x_bounds(const PlotSpec& spec) {
+    Bounds bounds;
+    for (const PlotSeries& series : spec.series) bounds.include(series.x);
+    return bounds;
+}
+
+Bounds y_bounds(const PlotSpec& spec) {
+    Bounds bounds;
+    for (const PlotSeries& series : spec.series)
+        for (const auto* values : {&series.y, &series.lower, &series.upper}) bounds.include(*values);
+    return bounds;
+}
 
 PlotRange widen(const Bounds& bounds, const PlotAxis& axis) {
     PlotRange range{bounds.min, bounds.max};
@@ -55,18 +70,21 @@ double place(double value, const PlotRange& range, bool logarithmic) {
 }  // namespace
 
 void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder) {
+    for (PlotSeries& series : spec.series) {
+        if (series.csv.empty()) continue;
+        const CsvTable table(folder / series.csv);
+        series.x = table.column(series.x_column);
+        series.y = table.column(series.y_column);
+        if (!series.lower_column.empty()) series.lower = table.column(series.lower_column);
+        if (!series.upper_column.empty()) series.upper = table.column(series.upper_column);
+    }
+    const double x_floor = spec.x.min ? 0.0 : noise * x_bounds(spec).max;
+    const double y_floor = spec.y.min ? 0.0 : noise * y_bounds(spec).max;
     bool any = false;
     for (PlotSeries& series : spec.series) {
-        if (!series.csv.empty()) {
-            const CsvTable table(folder / series.csv);
-            series.x = table.column(series.x_column);
-            series.y = table.column(series.y_column);
-            if (!series.lower_column.empty()) series.lower = table.column(series.lower_column);
-            if (!series.upper_column.empty()) series.upper = table.column(series.upper_column);
-        }
-        if (spec.x.logarithmic) drop_not_positive(series.x);
+        if (spec.x.logarithmic) drop_below(x_floor, series.x);
         if (spec.y.logarithmic)
-            for (auto* values : {&series.y, &series.lower, &series.upper}) drop_not_positive(*values);
+            for (auto* values : {&series.y, &series.lower, &series.upper}) drop_below(y_floor, *values);
         for (std::size_t k = 0; k < series.x.size(); ++k)
             any = any || (std::isfinite(series.x[k]) && std::isfinite(series.y[k]));
     }
@@ -74,19 +92,11 @@ void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder) {
 }
 
 PlotRange x_range(const PlotSpec& spec) {
-    Bounds bounds;
-    for (const PlotSeries& series : spec.series) bounds.include(series.x);
-    return widen(bounds, spec.x);
+    return widen(x_bounds(spec), spec.x);
 }
 
 PlotRange y_range(const PlotSpec& spec) {
-    Bounds bounds;
-    for (const PlotSeries& series : spec.series) {
-        bounds.include(series.y);
-        bounds.include(series.lower);
-        bounds.include(series.upper);
-    }
-    return widen(bounds, spec.y);
+    return widen(y_bounds(spec), spec.y);
 }
 
 std::string emptiest_corner(const PlotSpec& spec, double width, double height) {

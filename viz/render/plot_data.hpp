@@ -7,7 +7,8 @@
 
 namespace softgrain {
 
-/// Reads the CSV columns of a spec into its inline numbers; on a logarithmic axis values <= 0 become nan.
+/// Reads the CSV columns of a spec into its inline numbers. On a logarithmic axis values <= 0 become nan and,
+/// if it has no min, those below 1e-6 of the largest.
 /// `folder`: where relative paths start. Throws InputError, also if nothing is left to draw.
 void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder);
 

@@ -10,7 +10,7 @@ namespace softgrain {
 namespace {
 
 constexpr double tallest_panel = 1.4;  ///< times its width
-constexpr double widest_chain = 0.16;  ///< times the mean diameter of the grains
+constexpr double widest_chain = 0.12;  ///< times the mean diameter of the grains
 
 /// Sizes of everything on the page [pixels].
 struct Layout {
@@ -45,13 +45,14 @@ std::string number_text(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-void draw_caption(Page& page, const Frame& frame, const Layout& l, double x, double y) {
+void draw_caption(Page& page, const Frame& frame, double no_stress, const Layout& l, double x, double y) {
     std::string first, second;
     if (std::isfinite(frame.packing_fraction))
         first = fmt::format("packing fraction {:.3f}", frame.packing_fraction);
     else
         first = "time " + number_text(frame.time) + " s";
-    if (std::isfinite(frame.mean_stress)) second = "mean stress " + number_text(frame.mean_stress) + " N/m";
+    const double stress = std::abs(frame.mean_stress) < no_stress ? 0.0 : frame.mean_stress;
+    if (std::isfinite(stress)) second = "mean stress " + number_text(stress) + " N/m";
     if (std::isfinite(frame.coordination_number))
         second += fmt::format("{}Z {:.2f}", second.empty() ? "" : ",  ", frame.coordination_number);
     page.text({x, y + 1.9 * l.font}, first, {l.font, Align::centre, Align::centre});
@@ -138,7 +139,7 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
             draw_panel(page, frame, panel, centre);
             const Extent extent = frame_extent(frame);
             const double half = l.scale * (extent.high.y() - extent.low.y()) / 2.0;
-            draw_caption(page, frame, l, centre.x(), centre.y() + half + 0.3 * l.font);
+            draw_caption(page, frame, scale.no_stress, l, centre.x(), centre.y() + half + 0.3 * l.font);
         }
         if (!is_single(sheet))
             page.text({l.margin + 0.5 * l.font, y + l.panel_height / 2.0}, sheet.row_labels[r],

@@ -21,6 +21,7 @@ struct SheetScale {
     double widest_force;  ///< [N]
     Vec2 extent;          ///< width and height of the largest box [m]
     double diameter;      ///< mean of the grains [m]
+    double no_stress;     ///< a mean stress below this is rounding, shown as 0 [N/m]
 };
 
 Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width);
