@@ -188,15 +188,29 @@ void SoftDiscSolver::rebuild_neighbors() {
 }
 
 void SoftDiscSolver::evaluate_forces() {
+    evaluate_pairs();
+    std::size_t bad = nobody;
+#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+    for (std::size_t g = 0; g < size(); ++g) {
+        GrainForces sum{Vec2::Zero(), Mat2::Zero(), Vec2::Zero(), Mat2::Zero(), 0.0, 0.0};
+        if (!add_walls(g, sum)) bad = std::min(bad, g);
+        add_pairs(g, sum);
+        add_inner_stress(g, sum);
+        forces_[g] = sum;
+    }
+    if (bad != nobody)
+        throw DivergedError(static_cast<int>(bad), "wall contact", time_,
+                            "the grain went through a wall, or its cap is too deep for Eq. 57");
+    sum_wall_forces();
+}
+
+/// Every pair of the neighbour list on its own, in any order.
+void SoftDiscSolver::evaluate_pairs() {
     const Grains& s = grains_;
     warm_before_ = warm_;
     const std::span<const Pair> pairs = neighbors_.pairs();
-    const auto moving = [&](std::size_t g) {
-        return Moving{shape_[g], s.velocity[g], s.F_rate[g], s.mass[g]};
-    };
-
-    std::size_t bad_pair = nobody;
-#pragma omp parallel for schedule(static) reduction(min : bad_pair) if (size() >= threads_pay_off)
+    std::size_t bad = nobody;
+#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto i = static_cast<std::size_t>(pairs[k].i), j = static_cast<std::size_t>(pairs[k].j);
         const double reach = reach_[i] + reach_[j];
@@ -208,52 +222,52 @@ void SoftDiscSolver::evaluate_forces() {
         pair_contact_[k] = pair_contact(moving(i), moving(j), law_, warm_[k]);
         const PairContact& c = pair_contact_[k];
         const bool sound = c.overlap == Overlap::none || (c.touching() && c.force.stiffness > 0.0);
-        if (!sound) bad_pair = std::min(bad_pair, k);
+        if (!sound) bad = std::min(bad, k);
     }
-    if (bad_pair != nobody) throw_bad_contact(bad_pair);
+    if (bad != nobody) throw_bad_contact(bad);
+}
 
-    std::size_t bad = nobody;
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
-    for (std::size_t g = 0; g < size(); ++g) {
-        GrainForces sum{Vec2::Zero(), Mat2::Zero(), Vec2::Zero(), Mat2::Zero(), 0.0, 0.0};
-        wall_mask_[g] = 0;
-        for (int w = 0; w < 4; ++w) {
-            const double distance = box_.distance(w, s.position[g]);
-            if (distance >= reach_[g]) continue;
-            const WallChord chord = wall_chord(shape_[g], wall_normal(w), distance);
-            if (!chord.touching) continue;
-            const auto wall = static_cast<std::size_t>(w);
-            WallContact& c = wall_contact_[4 * g + wall];
-            const Vec2 wall_velocity =
-                wall_axis(w) == 0 ? Vec2{wall_velocity_[wall], 0.0} : Vec2{0.0, wall_velocity_[wall]};
-            c = wall_contact(moving(g), chord, wall_normal(w), wall_velocity, law_);
-            wall_mask_[g] = static_cast<std::uint8_t>(wall_mask_[g] | (1U << wall));
-            add_contact(sum, c.force, wall_normal(w), c.grain);
-            if (chord.escaped || !(c.force.stiffness > 0.0)) bad = std::min(bad, g);
-        }
-        for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
-            const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
-            if (c.overlap == Overlap::none) continue;
-            if (entry.second)
-                add_contact(sum, c.force, c.normal, c.j);
-            else
-                add_contact(sum, c.force, -c.normal, c.i);
-        }
-        const double R = s.radius[g];
-        const double eps_v =
-            shape_[g].det / (R * R) - cap_fraction(sum, s.reference_area[g]) - 1.0;    // Eq. 41
-        sum.moment -= s.reference_area[g] * law_.piola(s.F[g], Polar(s.F[g]), eps_v);  // Eq. 42, 43
-        // Eq. 62-64 without the spin, which they leave alone.
-        const double rate = options_.shape_damping * std::sqrt(law_.E / density_) / R;
-        const Mat2 shape_damping = (-rate * s.inertia[g]) * without_spin(s.F[g], s.F_rate[g]);
-        sum.moment += shape_damping;
-        sum.damping_moment += shape_damping;
-        forces_[g] = sum;
+/// Contacts with walls; false if one of them is beyond the law.
+bool SoftDiscSolver::add_walls(std::size_t g, GrainForces& sum) {
+    bool sound = true;
+    wall_mask_[g] = 0;
+    for (int w = 0; w < 4; ++w) {
+        const double distance = box_.distance(w, grains_.position[g]);
+        if (distance >= reach_[g]) continue;
+        const WallChord chord = wall_chord(shape_[g], wall_normal(w), distance);
+        if (!chord.touching) continue;
+        const auto wall = static_cast<std::size_t>(w);
+        WallContact& c = wall_contact_[4 * g + wall];
+        c = wall_contact(moving(g), chord, wall_normal(w), WallMotion{box_, wall_velocity_}.velocity_of(w),
+                         law_);
+        wall_mask_[g] = static_cast<std::uint8_t>(wall_mask_[g] | (1U << wall));
+        add_contact(sum, c.force, wall_normal(w), c.grain);
+        sound = sound && !chord.escaped && c.force.stiffness > 0.0;
     }
-    if (bad != nobody)
-        throw DivergedError(static_cast<int>(bad), "wall contact", time_,
-                            "the grain went through a wall, or its cap is too deep for Eq. 57");
-    sum_wall_forces();
+    return sound;
+}
+
+/// Contacts with other grains, in the order of the pair list.
+void SoftDiscSolver::add_pairs(std::size_t g, GrainForces& sum) const {
+    for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
+        const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
+        if (c.overlap == Overlap::none) continue;
+        if (entry.second)
+            add_contact(sum, c.force, c.normal, c.j);
+        else
+            add_contact(sum, c.force, -c.normal, c.i);
+    }
+}
+
+/// - A0 P, and shape damping (Eq. 62-64) without the spin, which those leave alone.
+void SoftDiscSolver::add_inner_stress(std::size_t g, GrainForces& sum) const {
+    const Mat2& F = grains_.F[g];
+    const double R = grains_.radius[g], A0 = grains_.reference_area[g];
+    const double eps_v = shape_[g].det / (R * R) - cap_fraction(sum, A0) - 1.0;  // Eq. 41
+    const double rate = options_.shape_damping * std::sqrt(law_.E / density_) / R;
+    const Mat2 damping = (-rate * grains_.inertia[g]) * without_spin(F, grains_.F_rate[g]);
+    sum.moment += damping - A0 * law_.piola(F, Polar(F), eps_v);  // Eq. 42, 43
+    sum.damping_moment += damping;
 }
 
 void SoftDiscSolver::sum_wall_forces() {
@@ -316,41 +330,6 @@ EnergyLedger SoftDiscSolver::energy_now() const {
 
 EnergyLedger SoftDiscSolver::energy() const {
     return with_motion([&](auto motion) { return energy_now<decltype(motion)>(); });
-}
-
-/// omega^2 = max over grains of 2 f sum(k_sep)/m + 8 max(kappa, mu)/(rho R^2), and the same sum for damping
-/// C: dt = (-C + sqrt(C^2 + 4 omega^2)) / omega^2. Every grain counts at least one contact that just closed.
-double SoftDiscSolver::stable_time_step() const {
-    const bool rigid = options_.kinematics == Kinematics::D2F0;
-    const double f = rigid || options_.incompressible ? 1.0 : 2.0;
-    const double bulk = rigid ? 0.0 : std::max(law_.kappa, law_.mu);
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t g = 0; g < size(); ++g) {
-        const double m = grains_.mass[g], R = grains_.radius[g];
-        double stiffness = 0.0, viscosity = 0.0;
-        const auto add = [&](double k_n, double reduced_mass, double share) {
-            stiffness += share * k_n;
-            viscosity += share * law_.damping * std::sqrt(k_n * reduced_mass);
-        };
-        for (std::size_t w = 0; w < 4; ++w)
-            if ((wall_mask_[g] >> w & 1U) != 0) add(wall_contact_[4 * g + w].force.stiffness, m, 1.0);
-        for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
-            const auto k = static_cast<std::size_t>(entry.pair);
-            if (pair_contact_[k].overlap == Overlap::none) continue;
-            const Pair& pair = neighbors_.pairs()[k];
-            const double m_i = grains_.mass[static_cast<std::size_t>(pair.i)];
-            const double m_j = grains_.mass[static_cast<std::size_t>(pair.j)];
-            add(pair_contact_[k].force.stiffness, m_i * m_j / (m_i + m_j), 0.5);
-        }
-        if (stiffness == 0.0) add(law_.first_stiffness(), m, 1.0);
-        const double omega2 = 2.0 * f * stiffness / m + 8.0 * bulk / (density_ * R * R);
-        const double C = 2.0 * f * viscosity / m + options_.shape_damping * std::sqrt(law_.E / density_) / R;
-        smallest = std::min(smallest, (std::sqrt(C * C + 4.0 * omega2) - C) / omega2);
-    }
-    // The imposed dilation follows the caps with a delay that damping has to make good (measured, see
-    // README.md).
-    const double delay = options_.incompressible && !rigid ? std::min(1.0, 0.25 + law_.damping) : 1.0;
-    return options_.safety * delay * smallest;
 }
 
 }  // namespace softgrain::sdem

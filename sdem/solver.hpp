@@ -69,6 +69,10 @@ class SoftDiscSolver final : public Solver {
     void update_neighbors();
     void rebuild_neighbors();
     void evaluate_forces();
+    void evaluate_pairs();
+    bool add_walls(std::size_t g, GrainForces& sum);
+    void add_pairs(std::size_t g, GrainForces& sum) const;
+    void add_inner_stress(std::size_t g, GrainForces& sum) const;
     void sum_wall_forces();
     void throw_bad_contact(std::size_t pair) const;
     void add_wall_work(EnergyLedger& ledger, const std::array<double, 4>& wall_velocity, double dt) const;
@@ -80,6 +84,9 @@ class SoftDiscSolver final : public Solver {
     void fill_fields();
     std::vector<Cut> cuts_of(std::size_t g) const;
 
+    Moving moving(std::size_t g) const {
+        return {shape_[g], grains_.velocity[g], grains_.F_rate[g], grains_.mass[g]};
+    }
     std::size_t size() const { return grains_.radius.size(); }
 
     Options options_;
@@ -97,10 +104,10 @@ class SoftDiscSolver final : public Solver {
     NeighborList neighbors_;
     PairsOfGrain pairs_of_;
     std::vector<WarmStart> warm_, warm_before_;  ///< [pairs] after and before the last evaluation
-    std::vector<PairContact> pair_contact_;  ///< [pairs]
-    std::vector<WallContact> wall_contact_;  ///< [4 n], valid where wall_mask_ tells
-    std::vector<std::uint8_t> wall_mask_;    ///< [n], bit w set if the grain touches wall w
-    std::vector<GrainForces> forces_;        ///< [n]
+    std::vector<PairContact> pair_contact_;      ///< [pairs]
+    std::vector<WallContact> wall_contact_;      ///< [4 n], valid where wall_mask_ tells
+    std::vector<std::uint8_t> wall_mask_;        ///< [n], bit w set if the grain touches wall w
+    std::vector<GrainForces> forces_;            ///< [n]
     std::array<Vec2, 4> wall_force_{}, wall_damping_force_{};
 
     EnergyLedger ledger_;                  ///< up to half a step before now; kinetic not used
