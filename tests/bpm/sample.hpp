@@ -1,0 +1,53 @@
+#pragma once
+// Small scenarios for the tests of the bonded-particle method.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "bpm/method.hpp"
+#include "bpm/solver.hpp"
+
+namespace softgrain::bpm {
+
+/// Attraction stress 1 N/m, density 1, so that the units are sqrt(F0 d/m) ~ 1.
+inline Scenario scenario_of(int discs, std::uint64_t seed = 1, double friction = 0.0) {
+    Scenario scenario;
+    scenario.seed = seed;
+    scenario.material.friction = friction;
+    Settings settings(method().keys());
+    settings.set("discs_per_grain", std::int64_t{discs});
+    settings.set("attraction_stress", 1.0);
+    scenario.method_settings.insert_or_assign("bpm", settings);
+    return scenario;
+}
+
+/// columns x rows grains of radius 1, `gap` apart, in a box that is `gap` wider.
+inline Packing square_packing(int columns, int rows, double gap) {
+    Packing packing;
+    const double pitch = 2.0 + gap;
+    packing.box.position = {0.0, pitch * columns + gap, 0.0, pitch * rows + gap};
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            packing.center.emplace_back(gap + 1.0 + pitch * column, gap + 1.0 + pitch * row);
+            packing.radius.push_back(1.0);
+        }
+    return packing;
+}
+
+/// Wall motion that closes in on all sides with `speed`.
+inline WallMotion closing(const Box& box, double speed) {
+    return {box, {speed, -speed, speed, -speed}};
+}
+
+/// Lowest and highest coordinate of the discs along an axis.
+inline std::pair<double, double> extent(const BpmSolver& solver, int axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t d = 0; d < solver.disc_position().size(); ++d) {
+        low = std::min(low, solver.disc_position()[d][axis] - solver.disc_radius()[d]);
+        high = std::max(high, solver.disc_position()[d][axis] + solver.disc_radius()[d]);
+    }
+    return {low, high};
+}
+
+}  // namespace softgrain::bpm

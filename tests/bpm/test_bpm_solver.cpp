@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "common/errors.hpp"
+#include "sample.hpp"
+
+namespace softgrain::bpm {
+namespace {
+
+/// Steps with walls closing in at `speed`; returns the box at the end.
+Box compact(BpmSolver& solver, Box box, double speed, int steps) {
+    const double h = solver.stable_time_step();
+    for (int k = 0; k < steps; ++k) {
+        const WallMotion walls = closing(box, speed);
+        solver.advance(walls, h);
+        box = walls.after(h);
+    }
+    return box;
+}
+
+TEST(BpmSolver, ARelaxedGrainStaysPut) {
+    BpmSolver solver(scenario_of(100), square_packing(1, 1, 1.0));
+    const std::vector<Vec2> before(solver.disc_position().begin(), solver.disc_position().end());
+    const std::vector<Vec2> centroid(solver.view(Need::base).centroid.begin(),
+                                     solver.view(Need::base).centroid.end());
+    compact(solver, square_packing(1, 1, 1.0).box, 0.0, 500);
+    double moved = 0.0;
+    for (std::size_t d = 0; d < before.size(); ++d)
+        moved = std::max(moved, (solver.disc_position()[d] - before[d]).norm());
+    // The contact tolerance (1e-4 d) lets single discs at the surface creep; 500 steps are 35 sqrt(m d/F0).
+    EXPECT_LT(moved / solver.mean_disc_diameter(), 0.05);
+    const GrainView view = solver.view(Need::base);
+    EXPECT_LT((view.centroid[0] - centroid[0]).norm() / solver.mean_disc_diameter(), 1e-9);
+    EXPECT_EQ(view.energy.external_work, 0.0);
+    for (const Vec2& force : view.wall_force) EXPECT_EQ(force, Vec2::Zero());
+}
+
+TEST(BpmSolver, ContactsAndAttractionConserveMomentum) {
+    // Grains meet after a push by the walls; then the walls stop far away: momentum changes only by wall
+    // impulses.
+    const Packing packing = square_packing(2, 2, 0.15);
+    BpmSolver solver(scenario_of(40), packing);
+    const auto momentum = [&] {
+        const GrainView view = solver.view(Need::base);
+        Vec2 sum = Vec2::Zero();
+        for (std::size_t g = 0; g < view.size(); ++g) sum += view.mass[g] * view.velocity[g];
+        return sum;
+    };
+    Box box = packing.box;
+    const double h = solver.stable_time_step();
+    Vec2 impulse = Vec2::Zero();
+    double largest = 0.0;
+    for (int k = 0; k < 150; ++k) {
+        const WallMotion walls{box, {0.08, -0.02, 0.05, 0.0}};
+        solver.advance(walls, h);
+        box = walls.after(h);
+        for (const Vec2& force : solver.wall_force()) {
+            impulse -= h * force;
+            largest = std::max(largest, force.norm());
+        }
+    }
+    EXPECT_GT(largest, 0.1);
+    EXPECT_LT((momentum() - impulse).norm(), 1e-12);
+}
+
+TEST(BpmSolver, EnergyLedgerCloses) {
+    for (double friction : {0.0, 0.4}) {
+        const Packing packing = square_packing(2, 2, 0.1);
+        BpmSolver solver(scenario_of(60, 1, friction), packing);
+        compact(solver, packing.box, 0.03, 500);
+        const EnergyLedger energy = solver.view(Need::base).energy;
+        const double residual = energy.external_work - energy.kinetic - energy.elastic - energy.dissipated();
+        EXPECT_GT(energy.external_work, 0.05);
+        EXPECT_GT(energy.impact, 0.0);
+        // What is left is the error of integrating the attraction, measured 1e-4 to 1e-3 of the work.
+        EXPECT_LT(std::abs(residual), 5e-3 * energy.external_work) << "friction " << friction;
+        if (friction > 0.0)
+            EXPECT_GT(energy.friction, 0.0);
+        else
+            EXPECT_EQ(energy.friction, 0.0);
+    }
+}
+
+TEST(BpmSolver, RestartGivesTheSameBits) {
+    const Packing packing = square_packing(2, 2, 0.1);
+    const Scenario scenario = scenario_of(40, 3, 0.3);
+    BpmSolver solver(scenario, packing);
+    Box box = compact(solver, packing.box, 0.03, 200);
+    Checkpoint checkpoint;
+    solver.save(checkpoint);
+    BpmSolver again(scenario, packing);
+    again.load(checkpoint);
+    const auto expect_same = [&] {
+        const GrainView a = solver.view(Need::all);
+        const std::vector<GrainContact> contacts(a.contacts.begin(), a.contacts.end());
+        const GrainView b = again.view(Need::all);
+        EXPECT_TRUE(std::ranges::equal(solver.disc_position(), again.disc_position()));
+        EXPECT_TRUE(std::ranges::equal(a.velocity, b.velocity));
+        EXPECT_EQ(a.wall_force, b.wall_force);
+        EXPECT_EQ(a.time, b.time);
+        EXPECT_EQ(a.covered_area, b.covered_area);
+        EXPECT_EQ(a.energy.elastic, b.energy.elastic);
+        EXPECT_EQ(a.energy.impact, b.energy.impact);
+        EXPECT_EQ(a.energy.friction, b.energy.friction);
+        ASSERT_EQ(contacts.size(), b.contacts.size());
+        for (std::size_t k = 0; k < contacts.size(); ++k) EXPECT_EQ(contacts[k].force, b.contacts[k].force);
+    };
+    expect_same();
+    compact(solver, box, 0.03, 200);
+    compact(again, box, 0.03, 200);
+    expect_same();
+}
+
+TEST(BpmSolver, RefusesTheCheckpointOfOtherDiscs) {
+    const Packing packing = square_packing(2, 1, 0.3);
+    BpmSolver solver(scenario_of(20, 1), packing), other(scenario_of(20, 2), packing);
+    Checkpoint checkpoint;
+    solver.save(checkpoint);
+    EXPECT_THROW(other.load(checkpoint), InputError);
+}
+
+TEST(BpmSolver, SameBitsForOneAndTwoThreads) {
+    // 25 grains of 90 discs: above the sizes at which threads are used.
+    std::vector<std::vector<Vec2>> results;
+    for (int threads : {1, 2}) {
+        omp_set_num_threads(threads);
+        const Packing packing = square_packing(5, 5, 0.05);
+        BpmSolver solver(scenario_of(90), packing);
+        compact(solver, packing.box, 0.04, 60);
+        results.emplace_back(solver.disc_position().begin(), solver.disc_position().end());
+    }
+    omp_set_num_threads(1);
+    EXPECT_TRUE(std::ranges::equal(results[0], results[1]));
+}
+
+TEST(BpmSolver, PenetrationFollowsTheTolerance) {
+    const Packing packing = square_packing(1, 1, 0.05);
+    std::vector<double> penetration;
+    for (double tolerance : {1e-3, 1e-4}) {
+        Scenario scenario = scenario_of(80);
+        scenario.method_settings.at("bpm").set("tolerance", tolerance);
+        BpmSolver solver(scenario, packing);
+        Box box = packing.box;
+        double deepest = 0.0;
+        for (int k = 0; k < 40; ++k) {
+            box = compact(solver, box, 0.03, 10);
+            deepest = std::max(deepest, solver.penetration());
+        }
+        penetration.push_back(deepest);
+        EXPECT_LT(deepest, 3.0 * tolerance);
+    }
+    EXPECT_GT(penetration[0], 3.0 * penetration[1]);
+}
+
+TEST(BpmSolver, TooFastAWallIsAnError) {
+    const Packing packing = square_packing(1, 1, 0.1);
+    BpmSolver solver(scenario_of(40), packing);
+    try {
+        compact(solver, packing.box, 50.0, 10);
+        FAIL() << "no error";
+    } catch (const DivergedError& error) {
+        EXPECT_EQ(error.grain, 0);
+    }
+}
+
+TEST(BpmSolver, OverCompactionIsOutsideItsValidity) {
+    const Packing packing = square_packing(1, 1, 0.1);
+    BpmSolver solver(scenario_of(40), packing);
+    EXPECT_FALSE(solver.outside_validity().has_value());
+    Box box = packing.box;
+    const double side = std::sqrt(2.6);  // discs have an area of 2.7 = 0.86 pi
+    for (int k = 0; k < 4000 && box.width() > side && !solver.outside_validity(); ++k)
+        box = compact(solver, box, 0.05, 1);
+    EXPECT_TRUE(solver.outside_validity().has_value());
+}
+
+}  // namespace
+}  // namespace softgrain::bpm
