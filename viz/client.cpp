@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "common/errors.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 
 extern char** environ;
 

@@ -7,12 +7,14 @@ namespace softgrain::testing {
 const std::vector<Bands>& all_bands() {
     static const std::vector<Bands> table{
         // Elastic discs: rounding only, but for the damped approach to rest.
-        {"sdem", 0.0, 1e-9, 0.02, 1e-9, 1e-12, 400.0},
-        // Aggregates: solved to 1e-4 disc diameters, so images differ by that; stick-slip never quite comes
-        // to rest;
-        // pores between the bumps of two grains that touch count as covered.
-        {"bpm", 1e-3, 5e-2, 0.15, 0.15, 0.05, 60.0},
-        {"rigid_dem", 0.0, 1e-9, 0.02, 5e-3, 1e-12, 400.0},
+        {"sdem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 1e-9, 1e-12, 400.0},
+        // Aggregates have a rough rim that finds its place at the start. They are solved to 1e-4 disc
+        // diameters and
+        // their discs rearrange, so images differ by that, and the stress of one instant, made of shocks, by
+        // much more.
+        // Pores between the bumps of two grains that touch count as covered.
+        {"bpm", 0.15, 1e-3, 5e-2, 0.6, 0.15, 0.15, 0.05, 60.0},
+        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0},
     };
     return table;
 }

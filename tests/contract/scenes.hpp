@@ -16,12 +16,14 @@ namespace softgrain::testing {
 /// Bands of one method, with the reason beside each in scenes.cpp.
 struct Bands {
     std::string method;
-    double at_rest;       ///< largest drift of a free grain [mean radius]
-    double symmetry;      ///< relative difference between a scene and its image
-    double equilibrium;   ///< relative difference between wall and Love-Weber stress at rest
-    double ledger;        ///< energy residual / external work
-    double closed_pores;  ///< covered area may exceed the sum of grain areas by this share
-    double loading_time;  ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
+    double placing;   ///< largest shift of a centroid when grains are placed [mean radius]
+    double at_rest;   ///< largest drift of a free grain [mean radius]
+    double symmetry;  ///< difference in position [mean radius] and area between a scene and its image
+    double symmetry_of_stress;  ///< relative
+    double equilibrium;         ///< relative difference between wall and Love-Weber stress at rest
+    double ledger;              ///< energy residual / external work
+    double closed_pores;        ///< covered area may exceed the sum of grain areas by this share
+    double loading_time;        ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
 };
 
 const std::vector<Bands>& all_bands();

@@ -11,7 +11,7 @@
 #include "viz/render/graphics.hpp"
 #include "viz/render/run_reader.hpp"
 #include "viz/render/sheet.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace {

@@ -24,7 +24,7 @@
 #include "common/errors.hpp"
 #include "viz/render/triangulate.hpp"
 #include "viz/render/vtk_errors.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace {

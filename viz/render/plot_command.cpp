@@ -15,7 +15,7 @@
 #include "viz/render/page.hpp"
 #include "viz/render/plot_chart.hpp"
 #include "viz/render/plot_data.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace fs = std::filesystem;

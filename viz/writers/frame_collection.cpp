@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 #include "viz/writers/vtp_file.hpp"
 
 namespace softgrain {

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "viz/writers/atomic_file.hpp"
+#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 
