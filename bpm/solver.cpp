@@ -19,6 +19,7 @@ constexpr double attraction_skin = 0.5;
 // Placing the aggregates: overlaps are removed at rest, then the grains come to rest under their own forces.
 constexpr int most_placing_steps = 300;
 constexpr int most_resting_steps = 1000;
+constexpr double largest_push = 0.05;     // overlap removed in a step [mean disc diameters]
 constexpr double placed_overlap = 1e-3;   // [mean disc diameters]
 constexpr double resting_speed = 2e-3;    // root mean square, in sqrt(F0 d / m)
 constexpr double resting_damping = 0.5;   // rate, in sqrt(F0 / (m d))
@@ -97,7 +98,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
       time_step_(settings.step * std::sqrt(mean_of(mass_) * diameter_ / maximum_force_)),
       attraction_({maximum_force_}, grain_start_, radius_, attraction_skin * diameter_),
       contacts_({settings.tolerance * diameter_, contact_skin * diameter_, settings.max_iterations,
-                 settings.over_relaxation, friction_}),
+                 settings.over_relaxation, friction_, largest_push * diameter_}),
       box_(packing.box),
       reference_area_(std::move(assembly.reference_area)) {
     for (std::size_t g = 0; g < grains(); ++g) {

@@ -12,8 +12,7 @@
 namespace softgrain {
 namespace {
 
-// Below these numbers of rows a barrier costs more than it saves.
-constexpr std::size_t rows_worth_threads = 3000;
+// A colour of fewer rows is not split: a barrier costs more than it saves.
 constexpr int colour_rows_worth_threads = 1000;
 
 std::size_t at(int k) {
@@ -30,13 +29,14 @@ class Solve {
 
     void start() {
         within_groups([&](int first, int last, int first_wall, int last_wall) {
-            contact_sweep::set_geometry(rows_, discs_, h_, first, last);
-            contact_sweep::set_geometry(wall_rows_, discs_, walls_.box, h_, first_wall, last_wall);
+            contact_sweep::set_geometry(rows_, discs_, h_, settings_.largest_push, first, last);
+            contact_sweep::set_geometry(wall_rows_, discs_, walls_.box, h_, settings_.largest_push,
+                                        first_wall, last_wall);
             contact_sweep::warm_start(rows_, discs_, first, last);
             contact_sweep::warm_start(wall_rows_, discs_, first_wall, last_wall);
         });
         between_groups([&](int first, int last) {
-            contact_sweep::set_geometry(rows_, discs_, h_, first, last);
+            contact_sweep::set_geometry(rows_, discs_, h_, settings_.largest_push, first, last);
             if (settings_.friction > 0.0)
                 contact_sweep::warm_start_with_friction(rows_, discs_, first, last);
             else
@@ -124,11 +124,12 @@ class Solve {
 
 ContactDynamics::ContactDynamics(const ContactSettings& settings) : settings_(settings) {
     if (!(settings.tolerance > 0.0) || !(settings.skin > 0.0) || settings.max_iterations < 1 ||
-        !(settings.over_relaxation > 0.0 && settings.over_relaxation < 2.0) || settings.friction < 0.0)
+        !(settings.over_relaxation > 0.0 && settings.over_relaxation < 2.0) || settings.friction < 0.0 ||
+        !(settings.largest_push > 0.0))
         throw InputError(
             "contact dynamics: tolerance and skin must be > 0, max_iterations >= 1, over_relaxation between "
             "0 "
-            "and 2, friction >= 0");
+            "and 2, friction >= 0, largest_push > 0");
 }
 
 ContactResult ContactDynamics::solve(const Discs& discs, const WallMotion& walls, double h) {
@@ -142,7 +143,7 @@ ContactResult ContactDynamics::solve(const Discs& discs, const WallMotion& walls
     // Two sets of slots, used in turn, save a barrier.
     std::array<std::vector<double>, 2> change;
     change.fill(std::vector<double>(static_cast<std::size_t>(omp_get_max_threads()), 0.0));
-#pragma omp parallel if (rows_.size() > rows_worth_threads)
+#pragma omp parallel if (rows_.size() > settings_.rows_worth_threads)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
         one.start();
