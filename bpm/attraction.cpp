@@ -11,7 +11,7 @@ namespace {
 
 constexpr int vector_length = 8;
 constexpr double far_away = 1e150;
-constexpr std::size_t discs_worth_threads = 1500;
+constexpr std::size_t discs_worth_threads = 1000;
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);

@@ -19,11 +19,12 @@ constexpr double attraction_skin = 0.5;
 // Placing the aggregates: overlaps are removed at rest, then the grains come to rest under their own forces.
 constexpr int most_placing_steps = 300;
 constexpr int most_resting_steps = 1000;
-constexpr double placed_overlap = 1e-3;  // [mean disc diameters]
-constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
-constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
-constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
-constexpr double invalid_overlap = 0.05;
+constexpr double largest_push = 0.05;     // overlap removed in a step [mean disc diameters]
+constexpr double placed_overlap = 1e-3;   // [mean disc diameters]
+constexpr double resting_speed = 2e-3;    // root mean square, in sqrt(F0 d / m)
+constexpr double resting_damping = 0.5;   // rate, in sqrt(F0 / (m d))
+constexpr double misfit_overlap = 0.02;   // a packing that keeps more overlap is too dense
+constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
@@ -97,7 +98,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
       time_step_(settings.step * std::sqrt(mean_of(mass_) * diameter_ / maximum_force_)),
       attraction_({maximum_force_}, grain_start_, radius_, attraction_skin * diameter_),
       contacts_({settings.tolerance * diameter_, contact_skin * diameter_, settings.max_iterations,
-                 settings.over_relaxation, friction_}),
+                 settings.over_relaxation, friction_, largest_push * diameter_}),
       box_(packing.box),
       reference_area_(std::move(assembly.reference_area)) {
     for (std::size_t g = 0; g < grains(); ++g) {
@@ -116,11 +117,15 @@ void BpmSolver::settle(const Box& box) {
         std::fill(v_.begin(), v_.end(), Vec2::Zero());
         std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
     };
-    int placing = 0;
-    do {
-        step(at_rest, time_step_);
-        come_to_rest();
-    } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
+    try {
+        int placing = 0;
+        do {
+            step(at_rest, time_step_);
+            come_to_rest();
+        } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
+    } catch (const DivergedError&) {
+        penetration_ = 1.0;
+    }
     if (penetration_ > misfit_overlap)
         throw InputError(
             fmt::format("bpm: the aggregates do not fit into the packing: discs overlap by {:.3g} of their "
@@ -214,12 +219,12 @@ void BpmSolver::watch(double h) const {
 }
 
 std::optional<std::string> BpmSolver::outside_validity() const {
-    if (penetration_ <= invalid_overlap) return std::nullopt;
+    const double residual = contact_result_.residual / diameter_;
+    if (contact_result_.converged || residual <= invalid_residual * settings_.tolerance) return std::nullopt;
     return fmt::format(
-        "rigid discs overlap by {:.3g} of their diameter (contact solver: {} iterations, {}); the grains "
-        "cannot be "
-        "compacted further",
-        penetration_, contact_result_.iterations, contact_result_.converged ? "converged" : "not converged");
+        "the rigid discs are jammed solid: {} sweeps of the contact solver leave a residual of {:.3g} disc "
+        "diameters (tolerance {:.3g}); the grains cannot be compacted further",
+        contact_result_.iterations, residual, settings_.tolerance);
 }
 
 double BpmSolver::kinetic_energy() const {

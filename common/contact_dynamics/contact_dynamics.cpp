@@ -12,8 +12,7 @@
 namespace softgrain {
 namespace {
 
-// Below these numbers of rows a barrier costs more than it saves.
-constexpr std::size_t rows_worth_threads = 3000;
+// A colour of fewer rows is not split: a barrier costs more than it saves.
 constexpr int colour_rows_worth_threads = 1000;
 
 std::size_t at(int k) {
@@ -30,23 +29,25 @@ class Solve {
 
     void start() {
         within_groups([&](int first, int last, int first_wall, int last_wall) {
-            contact_sweep::set_geometry(rows_, discs_, h_, first, last);
-            contact_sweep::set_geometry(wall_rows_, discs_, walls_.box, h_, first_wall, last_wall);
+            contact_sweep::set_geometry(rows_, discs_, h_, settings_.largest_push, first, last);
+            contact_sweep::set_geometry(wall_rows_, discs_, walls_.box, h_, settings_.largest_push,
+                                        first_wall, last_wall);
             contact_sweep::warm_start(rows_, discs_, first, last);
             contact_sweep::warm_start(wall_rows_, discs_, first_wall, last_wall);
         });
         between_groups([&](int first, int last) {
-            contact_sweep::set_geometry(rows_, discs_, h_, first, last);
+            contact_sweep::set_geometry(rows_, discs_, h_, settings_.largest_push, first, last);
             if (settings_.friction > 0.0)
                 contact_sweep::warm_start_with_friction(rows_, discs_, first, last);
             else
                 contact_sweep::warm_start(rows_, discs_, first, last);
         });
+        wait();
     }
 
-    /// Returns the calling thread's largest change [m/s].
-    double sweep() {
-        double largest = 0.0;
+    /// Writes the calling thread's largest change [m/s]; all of them can be read when sweep returns.
+    void sweep(double& largest) {
+        largest = 0.0;
         const double omega = settings_.over_relaxation;
         within_groups([&](int first, int last, int first_wall, int last_wall) {
             largest =
@@ -59,9 +60,10 @@ class Solve {
                                                   rows_, discs_, settings_.friction, first, last)
                                             : contact_sweep::relax(rows_, discs_, omega, first, last));
         });
-        return largest;
+        wait();
     }
 
+  private:
     /// A barrier, free of charge for a single thread.
     static void wait() {
         if (omp_get_num_threads() > 1) {
@@ -69,7 +71,6 @@ class Solve {
         }
     }
 
-  private:
     /// Each thread takes some of the groups, with about the same number of rows; then all wait.
     template <class Work>
     void within_groups(Work work) {
@@ -89,7 +90,7 @@ class Solve {
         return static_cast<int>(group - rows_.block_start.begin());
     }
 
-    /// Colours one after the other; a large colour is split between the threads, which wait after it.
+    /// Colours one after the other; a large colour is split between the threads. No wait after the last.
     template <class Work>
     void between_groups(Work work) {
         const std::vector<int>& start = rows_.colour_start;
@@ -107,7 +108,7 @@ class Solve {
                 work(start[c] + static_cast<int>(count * thread / threads),
                      start[c] + static_cast<int>(count * (thread + 1) / threads));
             }
-            wait();
+            if (c + 2 < start.size()) wait();
         }
     }
 
@@ -123,11 +124,12 @@ class Solve {
 
 ContactDynamics::ContactDynamics(const ContactSettings& settings) : settings_(settings) {
     if (!(settings.tolerance > 0.0) || !(settings.skin > 0.0) || settings.max_iterations < 1 ||
-        !(settings.over_relaxation > 0.0 && settings.over_relaxation < 2.0) || settings.friction < 0.0)
+        !(settings.over_relaxation > 0.0 && settings.over_relaxation < 2.0) || settings.friction < 0.0 ||
+        !(settings.largest_push > 0.0))
         throw InputError(
             "contact dynamics: tolerance and skin must be > 0, max_iterations >= 1, over_relaxation between "
             "0 "
-            "and 2, friction >= 0");
+            "and 2, friction >= 0, largest_push > 0");
 }
 
 ContactResult ContactDynamics::solve(const Discs& discs, const WallMotion& walls, double h) {
@@ -141,14 +143,13 @@ ContactResult ContactDynamics::solve(const Discs& discs, const WallMotion& walls
     // Two sets of slots, used in turn, save a barrier.
     std::array<std::vector<double>, 2> change;
     change.fill(std::vector<double>(static_cast<std::size_t>(omp_get_max_threads()), 0.0));
-#pragma omp parallel if (rows_.size() > rows_worth_threads)
+#pragma omp parallel if (rows_.size() > settings_.rows_worth_threads)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
         one.start();
         for (int iteration = 1; iteration <= settings_.max_iterations; ++iteration) {
             std::vector<double>& slots = change[static_cast<std::size_t>(iteration % 2)];
-            slots[thread] = one.sweep();
-            Solve::wait();
+            one.sweep(slots[thread]);
             const double residual = h * *std::max_element(slots.begin(), slots.end());
             const bool done = residual < settings_.tolerance;
             if (thread == 0) result = {iteration, residual, done};
@@ -217,7 +218,8 @@ void ContactDynamics::load(const Checkpoint& from, const std::string& prefix, co
     wall_rows_ = WallRows();
     if (built_at.empty()) return;
     if (built_at.size() != discs.x.size() || box.size() != 4)
-        throw InputError("checkpoint: the contact list is for another number of discs; use the same scenario");
+        throw InputError(
+            "checkpoint: the contact list is for another number of discs; use the same scenario");
     Discs then = discs;
     then.x = built_at;
     Box built_box;

@@ -1,5 +1,6 @@
 #pragma once
 // Contact dynamics of rigid discs (Moreau-Jean): one implicit step of unilateral, inelastic contact.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct ContactSettings {
     int max_iterations = 1000;     ///< sweeps in one solve
     double over_relaxation = 1.7;  ///< 0 to 2; rows with friction use 1
     double friction = 0.0;         ///< Coulomb coefficient between groups; walls are frictionless
+    /// An overlap is removed by at most this much in a step [m], so that deep ones do not explode.
+    double largest_push = std::numeric_limits<double>::infinity();
+    /// Threads are used for more rows than this. Two barriers a sweep cost little on idle cores, but far more
+    /// than they save when other work shares the cores.
+    std::size_t rows_worth_threads = 20000;
 };
 
 struct ContactResult {

@@ -12,7 +12,7 @@ std::size_t at(int k) {
 
 }  // namespace
 
-void set_geometry(ContactRows& rows, const Discs& discs, double h, int first, int last) {
+void set_geometry(ContactRows& rows, const Discs& discs, double h, double largest_push, int first, int last) {
     const double per_step = 1.0 / h;
     for (std::size_t k = at(first); k < at(last); ++k) {
         const std::size_t i = at(rows.i[k]);
@@ -20,14 +20,16 @@ void set_geometry(ContactRows& rows, const Discs& discs, double h, int first, in
         const Vec2 line = discs.x[j] - discs.x[i];
         const double distance = std::sqrt(line.squaredNorm());
         rows.direction[k] = distance > 0.0 ? Vec2(line / distance) : Vec2::UnitX();
-        rows.gap_speed[k] = (distance - discs.radius[i] - discs.radius[j]) * per_step;
+        rows.gap_speed[k] = std::max(distance - discs.radius[i] - discs.radius[j], -largest_push) * per_step;
     }
 }
 
-void set_geometry(WallRows& rows, const Discs& discs, const Box& box, double h, int first, int last) {
+void set_geometry(WallRows& rows, const Discs& discs, const Box& box, double h, double largest_push,
+                  int first, int last) {
     for (std::size_t k = at(first); k < at(last); ++k) {
         const std::size_t d = at(rows.disc[k]);
-        rows.gap_speed[k] = (box.distance(rows.wall[k], discs.x[d]) - discs.radius[d]) / h;
+        rows.gap_speed[k] =
+            std::max(box.distance(rows.wall[k], discs.x[d]) - discs.radius[d], -largest_push) / h;
     }
 }
 

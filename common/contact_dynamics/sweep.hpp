@@ -6,9 +6,10 @@
 
 namespace softgrain::contact_sweep {
 
-/// Normals and gap speeds at the start of a step.
-void set_geometry(ContactRows& rows, const Discs& discs, double h, int first, int last);
-void set_geometry(WallRows& rows, const Discs& discs, const Box& box, double h, int first, int last);
+/// Normals and gap speeds at the start of a step of length h; overlaps count as largest_push at most.
+void set_geometry(ContactRows& rows, const Discs& discs, double h, double largest_push, int first, int last);
+void set_geometry(WallRows& rows, const Discs& discs, const Box& box, double h, double largest_push,
+                  int first, int last);
 
 /// Applies the stored impulses to the velocities.
 void warm_start(const ContactRows& rows, const Discs& discs, int first, int last);

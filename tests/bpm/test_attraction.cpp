@@ -28,7 +28,7 @@ Discs random_discs(unsigned seed, int count) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     Discs discs;
-    const double side = std::sqrt(static_cast<double>(count));
+    const double side = 0.6 * std::sqrt(static_cast<double>(count));
     for (int k = 0; k < count; ++k) {
         discs.x.emplace_back(side * unit(random), side * unit(random));
         discs.radius.push_back(0.4 + 0.2 * unit(random));

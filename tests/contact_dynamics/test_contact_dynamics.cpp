@@ -69,6 +69,15 @@ TEST(ContactDynamics, MovingWallPushesADisc) {
     EXPECT_EQ(cloud.v[0].y(), 0.0);
 }
 
+TEST(ContactDynamics, DeepOverlapIsRemovedBySteps) {
+    DiscCloud cloud{{{0, 0}, {0.7, 0}}, {{0, 0}, {0, 0}}, {0.5, 0.5}, {1, 1}, {0, 0}, {0, 1}};
+    ContactSettings settings = exact();
+    settings.largest_push = 0.1;
+    ContactDynamics contacts(settings);
+    contacts.solve(cloud.discs(), far_walls, h);
+    EXPECT_NEAR(h * (cloud.v[1].x() - cloud.v[0].x()), 0.1, 1e-12);
+}
+
 TEST(ContactDynamics, KeepsMomentum) {
     DiscCloud cloud = disc_cloud(7, 12, 12, 4);
     const auto momentum = [&] {
@@ -149,7 +158,8 @@ TEST(ContactDynamics, SameBitsForOneAndTwoThreads) {
             DiscCloud cloud = disc_cloud(11, 60, 60, 6);
             if (alone)
                 for (std::size_t d = 0; d < cloud.size(); ++d) cloud.group[d] = static_cast<int>(d);
-            ContactDynamics contacts({.tolerance = 1e-5, .skin = 0.3, .friction = alone ? 0.4 : 0.0});
+            ContactDynamics contacts(
+                {.tolerance = 1e-5, .skin = 0.3, .friction = alone ? 0.4 : 0.0, .rows_worth_threads = 0});
             for (int step = 0; step < 3; ++step) {
                 contacts.solve(cloud.discs(), {{{-0.5, 60.5, -0.5, 52.2}}, {0.1, 0, 0, -0.1}}, 0.01);
                 for (std::size_t d = 0; d < cloud.size(); ++d) cloud.x[d] += 0.01 * cloud.v[d];
