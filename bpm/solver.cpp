@@ -148,7 +148,6 @@ void BpmSolver::settle(const Box& box) {
 
 void BpmSolver::advance(const WallMotion& walls, double dt) {
     step(walls, dt);
-    watch(dt);
     account(walls, dt);
 }
 
@@ -158,6 +157,7 @@ void BpmSolver::step(const WallMotion& walls, double h) {
     rim_speed_before_ = rim_speed_;
     for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
     contact_result_ = contacts_.solve(discs(), walls, h);
+    watch(h);
     for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
     time_ += h;
     last_step_ = h;
