@@ -128,7 +128,7 @@ int compare(const CompareRequest& request) {
         }
     }
 
-    const auto phi = packing_fractions_to_compare(results, table_columns);
+    const auto phi = request.at.empty() ? packing_fractions_to_compare(results, table_columns) : request.at;
     const std::string table = comparison_table(results, reference, phi);
     fmt::print("\n{}\n", table);
     write_file_atomically(request.folder / "comparison.md",

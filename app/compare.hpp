@@ -13,7 +13,8 @@ struct CompareRequest {
     std::vector<std::string> methods;
     std::filesystem::path folder;
     std::filesystem::path
-        reference;  ///< CSV with packing_fraction, mean_stress, coordination_number; empty for none
+        reference;           ///< CSV with packing_fraction, mean_stress, coordination_number; empty for none
+    std::vector<double> at;  ///< packing fractions of the table; empty lets the program choose
     int threads = 1;
     bool resume = false;
     bool force = false;

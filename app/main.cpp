@@ -26,6 +26,7 @@ struct Arguments {
     std::vector<std::string> compared;
     std::string out;
     std::string reference;
+    std::vector<double> at;
     std::vector<std::string> set;
     std::vector<std::string> rest;
     int threads = 0;
@@ -60,6 +61,7 @@ int compare_command(const Arguments& a) {
                     .methods = chosen,
                     .folder = a.out,
                     .reference = a.reference,
+                    .at = a.at,
                     .threads = a.threads,
                     .resume = a.resume,
                     .force = a.force,
@@ -166,6 +168,9 @@ int command_line(int argc, char** argv) {
         ->delimiter(',');
     compare_app->add_option("--reference", a.reference,
                             "CSV of a curve to show beside the methods and to measure errors against");
+    compare_app->add_option("--at", a.at, "packing fractions of the table, comma separated")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 1.0));
     compare_app->add_flag("--no-pictures", a.no_pictures, "numbers only, no plots and pictures");
 
     scenario_options(*add("validate", "check a scenario file and say all that is wrong with it",

@@ -8,6 +8,13 @@
 #include "common/observables/stress.hpp"
 
 namespace softgrain {
+namespace {
+
+/// How often between two samples the loop looks whether the stage is over, and begins a mean of the wall
+/// forces.
+constexpr int checks_per_sample = 8;
+
+}  // namespace
 
 TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
                    std::vector<Observer*> observers)
@@ -18,7 +25,8 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
       mean_diameter_(2.0 *
                      std::sqrt(undeformed_area_ / static_cast<double>(packing.size()) / std::numbers::pi)),
       density_(scenario.material.density),
-      checks_per_sample_(std::max(1, static_cast<int>(std::lround(1.0 / scenario.sampling.average_window)))) {
+      checks_before_window_(static_cast<int>(std::lround(
+          checks_per_sample * (1.0 - std::max(scenario.sampling.average_window, 1.0 / checks_per_sample))))) {
     state_.box = state_.initial_box = packing.box;
 }
 
@@ -59,7 +67,7 @@ void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& aft
 
 void TimeLoop::step(const StageDriver& driver) {
     const double interval = driver.sample_interval();
-    const double check_interval = interval / checks_per_sample_;
+    const double check_interval = interval / checks_per_sample;
     const double progress = driver.progress(state_.box, state_.stage_time);
     const double tiny = 1e-9 * interval;  // rounding of accumulated wall positions
     const auto reached = [&](double target) { return progress >= target - tiny; };
@@ -72,7 +80,7 @@ void TimeLoop::step(const StageDriver& driver) {
 
     // Steps of equal length that land on the next sample, or on the end of the stage.
     state_.rate = driver.rate(mean_stress(), solver_.stress_scale(), mean_diameter_, density_);
-    const long long samples_done = state_.checks / checks_per_sample_;
+    const long long samples_done = state_.checks / checks_per_sample;
     double target = interval * static_cast<double>(samples_done + 1);
     if (driver.end()) target = std::min(target, *driver.end());
     const double remaining = (target - progress) / state_.rate;
@@ -91,11 +99,10 @@ void TimeLoop::step(const StageDriver& driver) {
 void TimeLoop::check(const StageDriver& driver, bool at_end) {
     if (!at_end) ++state_.checks;
     solver_.check_finite();
-    if (state_.impulse_time > 0.0) {
-        for (std::size_t w = 0; w < 4; ++w) {
-            state_.mean_force[w] = state_.impulse[w] / state_.impulse_time;
-            state_.impulse[w].setZero();
-        }
+    if (state_.impulse_time > 0.0)
+        for (std::size_t w = 0; w < 4; ++w) state_.mean_force[w] = state_.impulse[w] / state_.impulse_time;
+    if (state_.checks % checks_per_sample <= checks_before_window_) {
+        for (Vec2& impulse : state_.impulse) impulse.setZero();
         state_.impulse_time = 0.0;
     }
     const GrainView view = solver_.view(Need::area);
@@ -109,7 +116,7 @@ void TimeLoop::check(const StageDriver& driver, bool at_end) {
     } else if (over && last_stage) {
         state_.ended = "loading done";
     }
-    if (over || finished() || state_.checks % checks_per_sample_ == 0) sample(driver, finished());
+    if (over || finished() || state_.checks % checks_per_sample == 0) sample(driver, finished());
     if (over && !finished()) begin_stage(state_.stage + 1);
 }
 

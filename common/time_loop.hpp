@@ -25,7 +25,7 @@ struct RunState {
     long long checks = 0;           ///< done in this stage
     double packing_fraction = 0.0;  ///< at the last check
     std::array<Vec2, 4> impulse{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
-                                Vec2::Zero()};  ///< since the last check [N s]
+                                Vec2::Zero()};  ///< since the mean began [N s]
     double impulse_time = 0.0;                  ///< [s]
     std::array<Vec2, 4> mean_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
                                    Vec2::Zero()};  ///< up to the last check [N]
@@ -71,7 +71,7 @@ class TimeLoop {
     double undeformed_area_ = 0.0;
     double mean_diameter_ = 0.0;
     double density_ = 0.0;
-    int checks_per_sample_ = 4;
+    int checks_before_window_ = 0;  ///< of a sample interval; the mean of the wall forces is over the rest
     RunState state_;
     std::vector<StageDriver> driver_;  ///< the present stage's, one or none
 };

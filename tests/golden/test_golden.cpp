@@ -56,6 +56,7 @@ TEST(Golden, DefaultComparisonKeepsItsCurves) {
                        .methods = {"sdem", "bpm", "rigid_dem"},
                        .folder = folder,
                        .reference = {},
+                       .at = {},
                        .threads = 2,
                        .force = true,
                        .pictures = false,
@@ -87,9 +88,9 @@ TEST(Golden, DefaultComparisonKeepsItsCurves) {
         for (std::size_t k = 0; k < rows; ++k)
             EXPECT_NEAR(h.column("packing_fraction_undeformed")[k],
                         sdem.column("packing_fraction_undeformed")[k], 1e-9);
-        // At the first contacts no grain is deformed: the same packing fraction within 1 % (an aggregate's
-        // rim is rough).
-        EXPECT_NEAR(h.column("packing_fraction")[0] / sdem.column("packing_fraction")[0], 1.0, 0.01) << other;
+        // At the first contacts no grain is deformed: the same packing fraction, but for the pores between
+        // the bumps of aggregates, which count as covered.
+        EXPECT_NEAR(h.column("packing_fraction")[0] / sdem.column("packing_fraction")[0], 1.0, 0.02) << other;
     }
     fs::remove_all(folder);
 }
@@ -110,6 +111,7 @@ TEST(Relation, SdemWithRigidKinematicsIsRigidDem) {
                        .methods = {"sdem", "rigid_dem"},
                        .folder = folder,
                        .reference = {},
+                       .at = {},
                        .threads = 1,
                        .force = true,
                        .pictures = false,

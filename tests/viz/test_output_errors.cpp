@@ -11,10 +11,10 @@
 #include <functional>
 
 #include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
 #include "hand_made_grains.hpp"
 #include "viz/render/run_reader.hpp"
 #include "viz/render/vtk_errors.hpp"
-#include "common/io/atomic_file.hpp"
 #include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/writers.hpp"
 
