@@ -48,7 +48,7 @@ MethodResult run_one(const CompareRequest& request, const Packing& packing, cons
 }
 
 PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResult>& results,
-                    const std::optional<History>& reference, std::string_view column,
+                    const std::optional<Reference>& reference, std::string_view column,
                     const std::string& label, bool logarithmic) {
     PlotSpec plot;
     plot.title = request.scenario.title;
@@ -68,7 +68,7 @@ PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResul
     for (const MethodResult& result : results)
         if (result.history && result.history->rows() > 1) add(result.report.method, *result.history);
     if (reference) {
-        add("resolved reference", *reference);
+        add(reference->name, reference->history);
         plot.series.back().line = LineStyle::dashed;
     }
     return plot;
@@ -76,7 +76,7 @@ PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResul
 
 /// Plots and pictures; a comparison without them is still one, so a failure is said and not thrown.
 void draw(const CompareRequest& request, const std::vector<MethodResult>& results,
-          const std::optional<History>& reference) {
+          const std::optional<Reference>& reference) {
     const auto complain = [](const std::optional<std::string>& error) {
         if (error) fmt::print(stderr, "no picture: {}\n", *error);
     };
@@ -107,8 +107,9 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
 int compare(const CompareRequest& request) {
     std::vector<const Method*> chosen;
     for (const std::string& name : request.methods) chosen.push_back(&find_method(name));
-    const std::optional<History> reference =
-        request.reference.empty() ? std::nullopt : std::optional(read_history(request.reference));
+    std::optional<Reference> reference;
+    if (!request.reference.empty())
+        reference = {request.reference.stem().string(), read_history(request.reference)};
 
     make_directories(request.folder);
     const Packing packing = make_packing(request.scenario);

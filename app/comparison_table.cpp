@@ -74,7 +74,7 @@ std::vector<double> packing_fractions_to_compare(const std::vector<MethodResult>
 }
 
 std::string comparison_table(const std::vector<MethodResult>& results,
-                             const std::optional<History>& reference, const std::vector<double>& phi) {
+                             const std::optional<Reference>& reference, const std::vector<double>& phi) {
     std::vector<Row> stress{{"mean stress [N/m] at phi"}};
     std::vector<Row> coordination{{"Z at phi"}};
     for (const double p : phi) {
@@ -85,9 +85,9 @@ std::string comparison_table(const std::vector<MethodResult>& results,
                            "CPU per grain [ms]", "memory [MB]"}};
     const auto add_reference = [&](std::vector<Row>& rows, std::string_view column, const char* format) {
         if (!reference) return;
-        rows.push_back({"resolved reference"});
+        rows.push_back({reference->name});
         for (const double p : phi)
-            rows.back().push_back(number(at_packing_fraction(*reference, column, p), format));
+            rows.back().push_back(number(at_packing_fraction(reference->history, column, p), format));
     };
     add_reference(stress, "mean_stress", "{:.3e}");
     add_reference(coordination, "coordination_number", "{:.2f}");
@@ -98,7 +98,8 @@ std::string comparison_table(const std::vector<MethodResult>& results,
         coordination.push_back({r.method});
         for (const double p : phi) {
             const auto mean_stress = value_at(result, "mean_stress", p);
-            const auto truth = reference ? at_packing_fraction(*reference, "mean_stress", p) : std::nullopt;
+            const auto truth =
+                reference ? at_packing_fraction(reference->history, "mean_stress", p) : std::nullopt;
             stress.back().push_back(number(mean_stress, "{:.3e}"));
             if (mean_stress && truth)
                 stress.back().back() += fmt::format(" ({:+.0f} %)", 100.0 * (*mean_stress / *truth - 1.0));

@@ -9,6 +9,12 @@
 
 namespace softgrain {
 
+/// A curve from elsewhere, shown beside the methods.
+struct Reference {
+    std::string name;
+    History history;
+};
+
 struct MethodResult {
     RunReport report;
     std::optional<History> history;  ///< none if the run wrote no row
@@ -24,7 +30,7 @@ std::vector<double> packing_fractions_to_compare(const std::vector<MethodResult>
 /// Stress (with its error against the reference, if there is one) and coordination at these packing
 /// fractions, cost, and how each run ended, as Markdown.
 std::string comparison_table(const std::vector<MethodResult>& results,
-                             const std::optional<History>& reference, const std::vector<double>& phi);
+                             const std::optional<Reference>& reference, const std::vector<double>& phi);
 
 /// The same as CSV with one row per method and packing fraction.
 std::string comparison_csv(const std::vector<MethodResult>& results, const std::vector<double>& phi);
