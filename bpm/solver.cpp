@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
 #include <numeric>
 
@@ -42,7 +43,7 @@ BpmSolver::Assembly BpmSolver::assemble(const Scenario& scenario, const Packing&
     if (grains == 0) throw InputError("bpm: the packing has no grains");
     const double mean_radius = packing.mean_radius();
     std::vector<Aggregate> aggregates(packing.size());
-    std::vector<std::string> failure(packing.size());
+    std::vector<std::exception_ptr> failure(packing.size());
 #pragma omp parallel for schedule(dynamic)
     for (int g = 0; g < grains; ++g) {
         const double size = packing.radius[at(g)] / mean_radius;
@@ -51,14 +52,14 @@ BpmSolver::Assembly BpmSolver::assemble(const Scenario& scenario, const Packing&
             aggregates[at(g)] =
                 prepare_aggregate({count, settings.disc_size_ratio, settings.outline_rho, scenario.seed, g},
                                   packing.radius[at(g)]);
-        } catch (const std::exception& error) {
-            failure[at(g)] = error.what();
+        } catch (...) {
+            failure[at(g)] = std::current_exception();
         }
     }
     Assembly all;
     all.grain_start.push_back(0);
     for (int g = 0; g < grains; ++g) {
-        if (!failure[at(g)].empty()) throw DivergedError(g, "preparation", 0.0, failure[at(g)]);
+        if (failure[at(g)]) std::rethrow_exception(failure[at(g)]);
         const Aggregate& grain = aggregates[at(g)];
         const Mat2 frame = packing.frame_of(at(g));
         const double area = std::numbers::pi * packing.radius[at(g)] * packing.radius[at(g)];
@@ -117,21 +118,21 @@ void BpmSolver::settle(const Box& box) {
         std::fill(v_.begin(), v_.end(), Vec2::Zero());
         std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
     };
+    const auto misfit = [](const std::string& what) {
+        return InputError("bpm: the aggregates do not fit into the packing: " + what +
+                          "; start from a looser packing (smaller packing.packing_fraction)");
+    };
     try {
         int placing = 0;
         do {
             step(at_rest, time_step_);
             come_to_rest();
         } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
-    } catch (const DivergedError&) {
-        penetration_ = 1.0;
+    } catch (const DivergedError& error) {
+        throw misfit(error.what());
     }
     if (penetration_ > misfit_overlap)
-        throw InputError(
-            fmt::format("bpm: the aggregates do not fit into the packing: discs overlap by {:.3g} of their "
-                        "diameter; start from a "
-                        "looser packing (smaller packing.packing_fraction)",
-                        penetration_));
+        throw misfit(fmt::format("discs still overlap by {:.3g} of their diameter", penetration_));
 
     const double unit_speed = std::sqrt(maximum_force_ * diameter_ / mean_of(mass_));
     const double keep = 1.0 - resting_damping * settings_.step;
@@ -178,8 +179,7 @@ void BpmSolver::step(const WallMotion& walls, double h) {
 void BpmSolver::account(const WallMotion& walls, double h) {
     double work = 0.0;
     for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));
-    // Kinetic energy that the contact impulses p = m (v+ - v-) - h F gave the discs over the step: p.(v- +
-    // v+)/2.
+    // The contact impulses p = m (v+ - v-) - h F gave the discs the kinetic energy p.(v- + v+)/2.
     double given = 0.0;
     for (std::size_t d = 0; d < x_.size(); ++d) {
         const Vec2 impulse = mass_[d] * (v_[d] - v_before_[d]) - h * force_[d];
