@@ -107,9 +107,9 @@ std::optional<std::string> SoftDiscSolver::outside_validity() const {
     }
     double covered = 0.0;
     for (const GrainForces& sum : forces_) covered += sum.covered / static_cast<double>(size());
-    if (covered > 1.0)
-        return "contacts cover the whole outline of the mean grain: no pore is left, and Eq. 41 has no "
-               "meaning";
+    if (options_.incompressible && covered > 1.0)
+        return "contacts cover the whole outline of the mean grain: no pore is left, and Eq. 67 has no "
+               "solution";
     for (std::size_t k = 0; k < pair_contact_.size(); ++k)
         if (pair_contact_[k].overlap == Overlap::four_points)
             return fmt::format("grains {} and {} cross in four points", neighbors_.pairs()[k].i,

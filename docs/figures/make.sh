@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Makes every number and picture of the README anew (about three minutes). Run after ./bootstrap.sh build.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+softgrain=build/release/bin/softgrain
+out=results/readme
+figures=docs/figures
+rm -rf "$out"
+mkdir -p "$out"
+
+echo "== default comparison"
+$softgrain compare scenarios/default.toml --out "$out/default" --quiet
+cp "$out/default/pictures/sheet.png" "$figures/default_pictures.png"
+cp "$out/default/stress.png" "$figures/default_stress.png"
+cp "$out/default/coordination.png" "$figures/default_coordination.png"
+
+echo "== 24 grains beside the resolved solution"
+$softgrain compare scenarios/packing24/isotropic.toml --methods sdem --quiet --out "$out/packing24" \
+    --reference scenarios/packing24/reference_nu0.3.csv --at 0.82,0.86,0.90,0.94
+cp "$out/packing24/stress.png" "$figures/packing24_stress.png"
+cp "$out/packing24/coordination.png" "$figures/packing24_coordination.png"
+
+echo "== sample A beside Eq. 69"
+$softgrain run scenarios/sample_a/isotropic.toml --method sdem --quiet --out "$out/sample_a/sdem"
+awk -f scenarios/sample_a/eq69.awk "$out/sample_a/sdem/history.csv" >"$out/eq69.csv"
+head -1 "$out/eq69.csv"
+cp "$out/sample_a/sdem/run.json" "$out/sample_a_run.json"
+$softgrain compare scenarios/sample_a/isotropic.toml --methods sdem --quiet --resume --out "$out/sample_a" \
+    --reference "$out/eq69.csv" --at 0.86,0.88,0.90,0.92,0.94,0.96,0.97
+cp "$out/sample_a/stress.png" "$figures/sample_a_stress.png"
+
+echo "== one grain between four walls"
+series=""
+colour=0
+for nu in 0 0.3 0.45; do
+    $softgrain run scenarios/single_grain/four_walls.toml --method sdem --quiet --set material.poisson_ratio=$nu \
+        --out "$out/four_walls_$nu" >/dev/null
+    awk -f scenarios/single_grain/force.awk "$out/four_walls_$nu/history.csv" >"$out/four_walls_$nu.csv"
+    grep -v '^#' "scenarios/single_grain/reference_four_walls_nu$nu.csv" >"$out/four_walls_$nu.reference.csv"
+    echo "nu = $nu: e, SDEM / resolved - 1"
+    awk -F, 'FNR == 1 { next } NR == FNR { force[sprintf("%.2f", $1)] = $2; next }
+             { e = sprintf("%.2f", $1) } e ~ /^0.(01|02|05|10|15|20|25)$/ { printf "  %s %+.0f %%\n", e, 100 * (force[e] / $2 - 1) }' \
+        "$out/four_walls_$nu.csv" "$out/four_walls_$nu.reference.csv"
+    series+="{\"label\": \"SDEM, nu = $nu\", \"csv\": \"four_walls_$nu.csv\", \"x_column\": \"e\", \"y_column\": \"F\", \"colour\": $colour},"
+    series+="{\"label\": \"resolved, nu = $nu\", \"csv\": \"four_walls_$nu.reference.csv\", \"x_column\": \"e\", \"y_column\": \"F\", \"line\": \"dashed\", \"colour\": $colour},"
+    colour=$((colour + 1))
+done
+cat >"$out/four_walls.json" <<JSON
+{"title": "One grain between four walls", "x": {"label": "wall displacement / radius", "max": 0.25},
+ "y": {"label": "wall force [N]", "max": 0.8}, "series": [${series%,}]}
+JSON
+$softgrain render plot "$out/four_walls.json" --out "$figures/four_walls.png"
+
+echo "== one BPM grain between two walls: plateau in F0/<a0>, five seeds"
+for seed in 1 2 3 4 5; do
+    $softgrain run scenarios/single_grain/two_walls.toml --method bpm --quiet --set random.seed=$seed \
+        --out "$out/plateau_$seed" >/dev/null
+    awk -f scenarios/single_grain/plateau.awk "$out/plateau_$seed/history.csv"
+done
