@@ -43,7 +43,7 @@ MethodResult run_one(const CompareRequest& request, const Packing& packing, cons
                                          .force = request.force,
                                          .quiet = request.quiet});
     }
-    result.history = read_history(folder / "history.csv");
+    if (result.report.steps > 0) result.history = read_history(folder / "history.csv");
     return result;
 }
 
@@ -66,7 +66,7 @@ PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResul
         plot.series.push_back(std::move(series));
     };
     for (const MethodResult& result : results)
-        if (result.history && result.history->rows() > 1) add(result.report.method, *result.history);
+        if (result.history) add(result.report.method, *result.history);
     if (reference) {
         add(reference->name, reference->history);
         plot.series.back().line = LineStyle::dashed;
@@ -86,16 +86,11 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
         curve_plot(request, results, reference, "coordination_number", "coordination number Z", false),
         request.folder / "coordination.png"));
     FramesSpec frames;
-    double low = 1.0;
-    double high = 0.0;
-    for (const MethodResult& result : results) {
-        if (!result.history || result.history->rows() == 0) continue;
-        const auto& phi = result.history->column("packing_fraction");
-        low = std::min(low, phi.front());
-        high = std::max(high, phi.back());
-        frames.runs.push_back({result.report.method, request.folder / result.report.method});
-    }
+    for (const MethodResult& result : results)
+        if (result.history)
+            frames.runs.push_back({result.report.method, request.folder / result.report.method});
     if (frames.runs.empty()) return;
+    const auto [low, high] = packing_fraction_range(results);
     for (const double phi : {low, 0.5 * (low + high), high})
         frames.at_packing_fraction.push_back(std::round(100.0 * phi) / 100.0);
     frames.out = request.folder / "pictures";

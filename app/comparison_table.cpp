@@ -53,15 +53,20 @@ std::optional<double> at_packing_fraction(const History& history, std::string_vi
     return std::nullopt;
 }
 
-std::vector<double> packing_fractions_to_compare(const std::vector<MethodResult>& results, int most) {
+std::pair<double, double> packing_fraction_range(const std::vector<MethodResult>& results) {
     double low = 1.0;
     double high = 0.0;
     for (const MethodResult& result : results) {
-        if (!result.history || result.history->rows() == 0) continue;
+        if (!result.history) continue;
         const auto& phi = result.history->column("packing_fraction");
         low = std::min(low, phi.front());
         high = std::max(high, *std::max_element(phi.begin(), phi.end()));
     }
+    return {low, high};
+}
+
+std::vector<double> packing_fractions_to_compare(const std::vector<MethodResult>& results, int most) {
+    const auto [low, high] = packing_fraction_range(results);
     std::vector<double> chosen;
     if (!(high > low)) return chosen;
     double step = 0.005;
@@ -109,9 +114,8 @@ std::string comparison_table(const std::vector<MethodResult>& results,
                         fmt::format("{}", r.steps), fmt::format("{:.2f}", cost_per_grain_step(r)),
                         fmt::format("{:.2f}", 1e3 * r.cpu_time / static_cast<double>(r.grains)),
                         fmt::format("{:.0f}", r.peak_memory / 1e6)});
-        const auto reached = result.history && result.history->rows() > 0
-                                 ? std::optional(result.history->column("packing_fraction").back())
-                                 : std::nullopt;
+        const auto reached =
+            result.history ? std::optional(result.history->column("packing_fraction").back()) : std::nullopt;
         endings += fmt::format("- {}: {}, at phi = {}\n", r.method, r.ended, number(reached, "{:.4f}"));
     }
     return fmt::format("{}\n{}\n{}\n{}", layout(stress), layout(coordination), layout(cost), endings);

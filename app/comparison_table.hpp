@@ -17,12 +17,15 @@ struct Reference {
 
 struct MethodResult {
     RunReport report;
-    std::optional<History> history;  ///< none if the run wrote no row
+    std::optional<History> history;  ///< none if the run made no step
 };
 
 /// Value of a column where packing_fraction first reaches phi (linear between samples); none outside the
 /// run's range.
 std::optional<double> at_packing_fraction(const History& history, std::string_view column, double phi);
+
+/// From the first to the largest packing fraction of any method; (1, 0) without any.
+std::pair<double, double> packing_fraction_range(const std::vector<MethodResult>& results);
 
 /// Round packing fractions that the loading of at least one method passes, at most `most`, evenly spread.
 std::vector<double> packing_fractions_to_compare(const std::vector<MethodResult>& results, int most);

@@ -78,13 +78,24 @@ std::optional<RunFile> earlier_run(const RunRequest& request, const std::string&
 RunReport run_into_folder(const RunRequest& request) {
     const Scenario scenario = scenario_for(request.scenario, request.method);
     const std::string scenario_text = write_scenario(request.scenario, method_keys());
-    make_directories(request.folder);
     std::optional<RunFile> earlier = earlier_run(request, scenario_text);
+    RunReport report;
+    report.method = request.method.name;
+    report.grains = request.packing.size();
 
     omp_set_num_threads(request.threads);
     reset_peak_memory();
     const Clocks begin;
-    const auto solver = request.method.make(scenario, request.packing);
+    std::unique_ptr<Solver> solver;
+    try {
+        solver = request.method.make(scenario, request.packing);
+    } catch (const InputError& error) {
+        report.exit_code = 2;
+        report.ended = fmt::format("cannot run this scenario: {}", error.what());
+        return report;
+    }
+
+    make_directories(request.folder);
     RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};
     if (earlier) {
         file = std::move(*earlier);
@@ -116,9 +127,6 @@ RunReport run_into_folder(const RunRequest& request) {
 
     Progress progress(std::string(request.method.name), stderr_is_terminal());
     double next_checkpoint = begin.wall + request.checkpoint_period;
-    RunReport report;
-    report.method = request.method.name;
-    report.grains = request.packing.size();
     try {
         if (!run.finished())
             run.go(stop_signal(), [&] {

@@ -33,7 +33,8 @@ struct RunReport {
     double peak_memory = 0.0;     ///< [bytes]
 };
 
-/// Runs and writes. Divergence and signals are reported, not thrown; InputError and OutputError are thrown.
+/// Runs and writes. Divergence, signals and a scenario that the method refuses (exit_code 2, nothing written)
+/// are reported, not thrown. Throws InputError about the folder, and OutputError.
 RunReport run_into_folder(const RunRequest& request);
 
 /// Report of an earlier run from its run.json. Throws InputError.

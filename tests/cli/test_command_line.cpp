@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -64,6 +65,15 @@ class CommandLine : public ::testing::Test {
         return {code, content(folder / "out.txt"), content(folder / "err.txt")};
     }
     Outcome softgrain(const std::vector<std::string>& arguments) const { return wait_for(start(arguments)); }
+
+    /// Until the history has so many rows (or ten seconds have passed).
+    static void wait_for_rows(const fs::path& history, int rows) {
+        for (int k = 0; k < 1000; ++k) {
+            const std::string text = content(history);
+            if (std::count(text.begin(), text.end(), '\n') > rows) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
 
     fs::path write(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name) << text;
@@ -147,7 +157,9 @@ TEST_F(CommandLine, ARunLeavesItsFilesAndIsNotOverwritten) {
 /// alone.
 TEST_F(CommandLine, StoppedAndResumedEndsWithTheSameBits) {
     for (const std::string method : {"sdem", "bpm", "rigid_dem"}) {
-        const std::string rate = method == "bpm" ? "4e-4" : "1e-5";
+        const std::string rate = method == "bpm"    ? "4e-4"
+                                 : method == "sdem" ? "1e-6"
+                                                    : "2e-7";  // about a second
         const std::vector<std::string> base{"run", small_scenario(rate).string(), "--method", method};
         const auto into = [&](const std::string& name, bool resume) {
             auto command = base;
@@ -162,14 +174,14 @@ TEST_F(CommandLine, StoppedAndResumedEndsWithTheSameBits) {
         int stops = 0;
         for (const int signal : {SIGTERM, SIGINT}) {
             const pid_t child = start(into(broken, stops > 0));
-            std::this_thread::sleep_for(std::chrono::milliseconds(120));
+            wait_for_rows(folder / broken / "history.csv", stops == 0 ? 2 : 4);
             ::kill(child, signal);
             const Outcome stopped = wait_for(child);
             if (stopped.exit_code == 0) break;  // it was done before the signal came
             ASSERT_EQ(stopped.exit_code, 128 + signal) << stopped.err;
             ++stops;
         }
-        EXPECT_GT(stops, 0) << method << ": too fast to be stopped, the test shows nothing";
+        ASSERT_EQ(stops, 2) << method << ": too fast to be stopped, the test shows nothing";
         ASSERT_EQ(softgrain(into(broken, true)).exit_code, 0);
 
         EXPECT_EQ(content(folder / broken / "history.csv"), content(folder / straight / "history.csv"))
@@ -240,6 +252,17 @@ TEST_F(CommandLine, CompareRunsEveryMethodFromOnePacking) {
     EXPECT_EQ(second.exit_code, 0);
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(softgrain(command).exit_code, 2) << "results are not overwritten without --force";
+}
+
+TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
+    const fs::path out = folder / "friction";
+    const Outcome run = softgrain({"compare", small_scenario().string(), "--methods", "sdem,rigid_dem",
+                                   "--out", out.string(), "--no-pictures", "--set", "material.friction=0.3"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.out.find("- sdem: cannot run this scenario: "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("- rigid_dem: loading done"), std::string::npos) << run.out;
+    EXPECT_FALSE(fs::exists(out / "sdem"));
+    EXPECT_TRUE(fs::exists(out / "rigid_dem" / "history.csv"));
 }
 
 }  // namespace
