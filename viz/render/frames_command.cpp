@@ -8,10 +8,10 @@
 #include <set>
 
 #include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
 #include "viz/render/graphics.hpp"
 #include "viz/render/run_reader.hpp"
 #include "viz/render/sheet.hpp"
-#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace {

@@ -22,9 +22,9 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
 #include "viz/render/triangulate.hpp"
 #include "viz/render/vtk_errors.hpp"
-#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace {

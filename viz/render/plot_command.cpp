@@ -11,11 +11,11 @@
 #include <string>
 
 #include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
 #include "viz/render/graphics.hpp"
 #include "viz/render/page.hpp"
 #include "viz/render/plot_chart.hpp"
 #include "viz/render/plot_data.hpp"
-#include "common/io/atomic_file.hpp"
 
 namespace softgrain {
 namespace fs = std::filesystem;
