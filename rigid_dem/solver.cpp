@@ -221,16 +221,25 @@ void RigidDem::account_energy(double dt) {
 }
 
 std::optional<std::string> RigidDem::outside_validity() const {
+    const auto too_large = [&](double overlap, double radius) {
+        return overlap > law_.overlap_limit * radius;
+    };
+    const auto tell = [&](std::size_t i, const std::string& partner, double relative) {
+        return fmt::format("overlap of grain {} and {} is {:.3f} of the smaller radius (overlap_limit {})", i,
+                           partner, relative, law_.overlap_limit);
+    };
     const auto pairs = neighbors_.pairs();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto i = static_cast<std::size_t>(pairs[k].i);
         const auto j = static_cast<std::size_t>(pairs[k].j);
-        const double relative = overlap_[k] / std::min(radius_[i], radius_[j]);
-        if (relative > law_.overlap_limit)
-            return fmt::format(
-                "overlap of grains {} and {} is {:.3f} of the smaller radius (overlap_limit {})", i, j,
-                relative, law_.overlap_limit);
+        const double smaller = std::min(radius_[i], radius_[j]);
+        if (too_large(overlap_[k], smaller))
+            return tell(i, fmt::format("grain {}", j), overlap_[k] / smaller);
     }
+    for (std::size_t c = 0; c < wall_overlap_.size(); ++c)
+        if (too_large(wall_overlap_[c], radius_[c / 4]))
+            return tell(c / 4, fmt::format("the {} wall", wall_names[c % 4]),
+                        wall_overlap_[c] / radius_[c / 4]);
     return std::nullopt;
 }
 

@@ -112,7 +112,17 @@ TEST(RigidDem, LeavesItsValidityAtTheOverlapLimit) {
     p = two_discs(-0.101);
     RigidDem outside(scenario_with(0.0, 1.0), p);
     ASSERT_TRUE(outside.outside_validity());
-    EXPECT_NE(outside.outside_validity()->find("grains 0 and 1"), std::string::npos);
+    EXPECT_NE(outside.outside_validity()->find("grain 0 and grain 1"), std::string::npos);
+}
+
+TEST(RigidDem, WallsCountForTheOverlapLimit) {
+    Packing p;
+    p.box.position = {0.0, 5.0, 0.11, 5.0};
+    p.center = {{2.0, 1.0}};
+    p.radius = {1.0};
+    RigidDem dem(scenario_with(0.0, 1.0), p);
+    ASSERT_TRUE(dem.outside_validity());
+    EXPECT_NE(dem.outside_validity()->find("grain 0 and the bottom wall is 0.110"), std::string::npos);
 }
 
 TEST(RigidDem, TooLargeAStepIsNamedAndNotHidden) {
