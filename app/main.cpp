@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 
 #include "app/compare.hpp"
 #include "app/methods.hpp"
@@ -212,6 +213,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}\n", error.what());
         return 3;
     } catch (const softgrain::OutputError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 4;
+    } catch (const std::filesystem::filesystem_error& error) {
         fmt::print(stderr, "{}\n", error.what());
         return 4;
     } catch (const std::bad_alloc&) {

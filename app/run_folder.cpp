@@ -101,6 +101,9 @@ RunReport run_into_folder(const RunRequest& request) {
         file = std::move(*earlier);
         solver->load(file.solver);
     } else {
+        // What an earlier run left must not be taken for this one's.
+        std::filesystem::remove(request.folder / "run.h5");
+        std::filesystem::remove(request.folder / "run.json");
         write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 

@@ -13,6 +13,8 @@ namespace {
 /// How often between two samples the loop looks whether the stage is over, and begins a mean of the wall
 /// forces.
 constexpr int checks_per_sample = 8;
+/// A method that has left its validity may diverge a few steps later: it must be noticed before.
+constexpr int steps_between_validity_checks = 8;
 
 }  // namespace
 
@@ -94,6 +96,7 @@ void TimeLoop::step(const StageDriver& driver) {
     ++state_.step;
     for (std::size_t w = 0; w < 4; ++w) state_.impulse[w] += solver_.wall_force()[w] * dt;
     state_.impulse_time += dt;
+    if (state_.step % steps_between_validity_checks == 0 && solver_.outside_validity()) check(driver, false);
 }
 
 void TimeLoop::check(const StageDriver& driver, bool at_end) {
