@@ -10,6 +10,8 @@ if(SOFTGRAIN_NATIVE)
   target_compile_options(softgrain_options INTERFACE -march=native)
 endif()
 if(SOFTGRAIN_SANITIZE)
+  # GCC's instrumentation makes it warn of variables that are set (see its manual, -fsanitize).
+  target_compile_options(softgrain_options INTERFACE -Wno-maybe-uninitialized)
   target_compile_options(softgrain_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                      -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
   target_link_options(softgrain_options INTERFACE -fsanitize=address,undefined)
