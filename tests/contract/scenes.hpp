@@ -35,6 +35,9 @@ Scenario scenario_of(const std::string& method, const std::string& extra = "");
 /// Nine grains of two sizes on a jittered square lattice, just apart, in a square box.
 Packing nine_grains();
 
+/// Four grains well apart in a square box, so that nothing has to find its place at the start.
+Packing four_grains();
+
 /// `side` x `side` equal grains on a square lattice, touching: enough contacts to make the threads work.
 Packing square_lattice(int side);
 
