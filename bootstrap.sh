@@ -34,14 +34,14 @@ build() {
     say "Configuring (preset release)"
     cmake --preset release
     say "Building"
-    cmake --build --preset release
+    cmake --build --preset release "$@"
 }
 
 case "${1:-}" in
     deps) install_packages ;;
     build) build ;;
     run)
-        build
+        build --target softgrain softgrain-render
         say "Running scenarios/default.toml with every method into results/default"
         exec build/release/bin/softgrain compare scenarios/default.toml --out results/default --force
         ;;
