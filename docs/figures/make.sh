@@ -38,8 +38,8 @@ for nu in 0 0.3 0.45; do
     awk -f scenarios/single_grain/force.awk "$out/four_walls_$nu/history.csv" >"$out/four_walls_$nu.csv"
     grep -v '^#' "scenarios/single_grain/reference_four_walls_nu$nu.csv" >"$out/four_walls_$nu.reference.csv"
     echo "nu = $nu: e, SDEM / resolved - 1"
-    awk -F, 'FNR == 1 { next } NR == FNR { force[sprintf("%.2f", $1)] = $2; next }
-             { e = sprintf("%.2f", $1) } e ~ /^0.(01|02|05|10|15|20|25)$/ { printf "  %s %+.0f %%\n", e, 100 * (force[e] / $2 - 1) }' \
+    awk -F, 'FNR == 1 { next } NR == FNR { force[sprintf("%.3f", $1)] = $2; next }
+             { e = sprintf("%.3f", $1) } e ~ /^0.(01|02|05|10|15|20|25)0$/ { printf "  %s %+.0f %%\n", e, 100 * (force[e] / $2 - 1) }' \
         "$out/four_walls_$nu.csv" "$out/four_walls_$nu.reference.csv"
     series+="{\"label\": \"SDEM, nu = $nu\", \"csv\": \"four_walls_$nu.csv\", \"x_column\": \"e\", \"y_column\": \"F\", \"colour\": $colour},"
     series+="{\"label\": \"resolved, nu = $nu\", \"csv\": \"four_walls_$nu.reference.csv\", \"x_column\": \"e\", \"y_column\": \"F\", \"line\": \"dashed\", \"colour\": $colour},"
