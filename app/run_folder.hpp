@@ -28,7 +28,7 @@ struct RunReport {
     std::size_t grains = 0;
     long long steps = 0;
     double simulated_time = 0.0;  ///< [s]
-    double wall_time = 0.0;       ///< [s], all sessions of a resumed run
+    double wall_time = 0.0;       ///< [s], before and after a resume
     double cpu_time = 0.0;        ///< [s]
     double peak_memory = 0.0;     ///< [bytes]
 };

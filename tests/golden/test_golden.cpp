@@ -39,14 +39,16 @@ std::map<std::string, std::vector<Point>> read_comparison(const fs::path& path) 
 }
 
 /// Bands: a run amplifies rounding at every rearrangement, so other compilers and processors give another of
-/// the equally good curves. Elastic discs return to the same curve after it; aggregates are plastic and
-/// remember.
+/// the equally good curves. Elastic discs return to the same curve after it; aggregates are plastic, and
+/// their stress goes up and down by a third from sample to sample (stick-slip), less in the mean over the
+/// loading.
 struct Band {
-    double stress;        ///< relative
+    double stress;        ///< of one point, relative
+    double mean_stress;   ///< of the mean ratio over the points, relative
     double coordination;  ///< absolute
 };
 const std::map<std::string, Band> bands{
-    {"sdem", {0.05, 0.12}}, {"bpm", {0.25, 0.30}}, {"rigid_dem", {0.05, 0.12}}};
+    {"sdem", {0.05, 0.03, 0.12}}, {"bpm", {0.45, 0.20, 0.30}}, {"rigid_dem", {0.05, 0.05, 0.12}}};
 
 TEST(Golden, DefaultComparisonKeepsItsCurves) {
     const fs::path folder =
@@ -68,8 +70,11 @@ TEST(Golden, DefaultComparisonKeepsItsCurves) {
     for (const auto& [method, expected] : golden) {
         const auto& curve = now.at(method);
         ASSERT_EQ(curve.size(), expected.size()) << method << " reaches other packing fractions";
+        double mean_ratio = 0.0;
         for (std::size_t k = 0; k < expected.size(); ++k) {
             ASSERT_DOUBLE_EQ(curve[k].packing_fraction, expected[k].packing_fraction);
+            mean_ratio +=
+                curve[k].mean_stress / expected[k].mean_stress / static_cast<double>(expected.size());
             // Below 1e-3 of the stiffness the grains still rearrange: no band is meaningful for one sample.
             if (expected[k].mean_stress < 1e-3) continue;
             EXPECT_NEAR(curve[k].mean_stress / expected[k].mean_stress, 1.0, bands.at(method).stress)
@@ -78,6 +83,7 @@ TEST(Golden, DefaultComparisonKeepsItsCurves) {
                         bands.at(method).coordination)
                 << method << " at " << expected[k].packing_fraction;
         }
+        EXPECT_NEAR(mean_ratio, 1.0, bands.at(method).mean_stress) << method;
     }
 
     // The same box at the same sample, so the same undeformed packing fraction, for every method.
