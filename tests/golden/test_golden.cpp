@@ -50,20 +50,23 @@ struct Band {
 const std::map<std::string, Band> bands{
     {"sdem", {0.05, 0.03, 0.12}}, {"bpm", {0.45, 0.20, 0.30}}, {"rigid_dem", {0.05, 0.05, 0.12}}};
 
+int run_comparison(const Scenario& scenario, std::vector<std::string> methods, const fs::path& folder) {
+    return compare({.scenario = scenario,
+                    .methods = std::move(methods),
+                    .folder = folder,
+                    .reference = {},
+                    .at = {},
+                    .threads = 1,
+                    .force = true,
+                    .pictures = false,
+                    .quiet = true});
+}
+
 TEST(Golden, DefaultComparisonKeepsItsCurves) {
     const fs::path folder =
         fs::path(::testing::TempDir()) / ("softgrain_golden_" + std::to_string(::getpid()));
     const Scenario scenario = read_scenario(SOFTGRAIN_SCENARIOS "/default.toml", {}, method_keys());
-    ASSERT_EQ(compare({.scenario = scenario,
-                       .methods = {"sdem", "bpm", "rigid_dem"},
-                       .folder = folder,
-                       .reference = {},
-                       .at = {},
-                       .threads = 1,
-                       .force = true,
-                       .pictures = false,
-                       .quiet = true}),
-              0);
+    ASSERT_EQ(run_comparison(scenario, {"sdem", "bpm", "rigid_dem"}, folder), 0);
     const auto golden = read_comparison(SOFTGRAIN_GOLDEN "/default_comparison.csv");
     const auto now = read_comparison(folder / "comparison.csv");
     ASSERT_EQ(golden.size(), 3U);
@@ -113,16 +116,7 @@ TEST(Relation, SdemWithRigidKinematicsIsRigidDem) {
     const Scenario scenario = parse_scenario(text, "relation.toml", {}, method_keys());
     const fs::path folder =
         fs::path(::testing::TempDir()) / ("softgrain_relation_" + std::to_string(::getpid()));
-    ASSERT_EQ(compare({.scenario = scenario,
-                       .methods = {"sdem", "rigid_dem"},
-                       .folder = folder,
-                       .reference = {},
-                       .at = {},
-                       .threads = 1,
-                       .force = true,
-                       .pictures = false,
-                       .quiet = true}),
-              0);
+    ASSERT_EQ(run_comparison(scenario, {"sdem", "rigid_dem"}, folder), 0);
     const History soft = read_history(folder / "sdem" / "history.csv");
     const History rigid = read_history(folder / "rigid_dem" / "history.csv");
     ASSERT_EQ(soft.rows(), rigid.rows());
