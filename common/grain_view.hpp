@@ -32,7 +32,7 @@ constexpr bool wants(Need all, Need one) {
 struct GrainContact {
     int i;          ///< grain
     int j;          ///< second grain (j > i), or -1 - wall
-    Vec2 point;     ///< representative point [m]
+    Vec2 point;     ///< representative point, near grain i if the pair meets across a periodic cell [m]
     Vec2 normal;    ///< unit, out of i
     Vec2 force;     ///< on i [N]
     double length;  ///< contact length [m]; 0 if the method has point contacts
@@ -45,14 +45,16 @@ struct GrainContact {
 /// Running energies since the start of the run [J per unit thickness]. Zero for mechanisms a method does not
 /// have.
 struct EnergyLedger {
-    double kinetic = 0.0;
+    double kinetic = 0.0;        ///< of the motion against the flow of a periodic cell, if there is one
     double elastic = 0.0;        ///< stored, recoverable
-    double external_work = 0.0;  ///< done by the walls on the grains
+    double external_work = 0.0;  ///< done on the grains by the walls, or by the deforming cell
     double damping = 0.0;        ///< dissipated by viscous terms
     double friction = 0.0;       ///< dissipated by sliding
     double impact = 0.0;         ///< dissipated by inelastic shocks
+    double plastic = 0.0;        ///< dissipated by plastic flow
+    double adhesion = 0.0;       ///< dissipated where cohesion pulls less hard than it was overcome
 
-    double dissipated() const { return damping + friction + impact; }
+    double dissipated() const { return damping + friction + impact + plastic + adhesion; }
 };
 
 /// A method's own quantity per grain, written as it is.
@@ -65,13 +67,13 @@ struct Field {
 /// Non-owning view of a solver's state; valid until the solver advances. Stress is compression positive.
 struct GrainView {
     double time = 0.0;
-    Box box;
-    std::span<const Vec2> centroid;          ///< [n] [m]
+    Box box;                                 ///< as the loop moved it: the tilt of a cell is not reduced
+    std::span<const Vec2> centroid;          ///< [n] may lie outside a periodic cell [m]
     std::span<const Vec2> velocity;          ///< [n] [m/s]
     std::span<const double> mass;            ///< [n] [kg]
     std::span<const double> reference_area;  ///< [n] undeformed [m^2]
     std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
-                                   Vec2::Zero()};  ///< by grains on walls [N]
+                                   Vec2::Zero()};  ///< by grains on walls, zero in a periodic cell [N]
     EnergyLedger energy;
 
     std::span<const double> area;  ///< [n] current area of each grain [m^2]

@@ -1,82 +1,112 @@
 #include "common/neighbors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "common/neighbor_grid.hpp"
 
 namespace softgrain {
 namespace {
 
-struct Grid {
-    Vec2 origin;
-    double cell;
-    int nx, ny;
+constexpr std::size_t worth_threads = 20'000;  ///< grains
+constexpr std::size_t blocks = 32;
 
-    int column(double x) const { return std::clamp(static_cast<int>((x - origin.x()) / cell), 0, nx - 1); }
-    int row(double y) const { return std::clamp(static_cast<int>((y - origin.y()) / cell), 0, ny - 1); }
+struct Partner {
+    int j;
+    Image image;
 };
 
-Grid grid_around(std::span<const Vec2> x, double cell) {
-    Vec2 low = x.front();
-    Vec2 high = x.front();
-    for (const Vec2& p : x) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+/// Pairs of all blocks, in an order that does not depend on the number of threads.
+std::array<std::vector<FoundPair>, blocks> find_in_blocks(const NeighborGrid& grid) {
+    std::array<std::vector<FoundPair>, blocks> found;
+    const std::size_t n = grid.size();
+#pragma omp parallel for schedule(dynamic) if (n > worth_threads)
+    for (std::size_t b = 0; b < blocks; ++b) {
+        found[b].reserve(4 * n / blocks);
+        grid.find(b * n / blocks, (b + 1) * n / blocks, found[b]);
     }
-    const auto cells = [&](double length) { return static_cast<int>(std::min(length / cell, 4096.0)) + 1; };
-    return {low, cell, cells(high.x() - low.x()), cells(high.y() - low.y())};
+    return found;
 }
 
 }  // namespace
 
 void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach, double skin) {
+    build(x, reach, skin, Box{});
+}
+
+void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach, double skin,
+                         const Box& cell) {
     skin_ = skin;
+    built_cell_ = cell;
     built_at_.assign(x.begin(), x.end());
     built_reach_.assign(reach.begin(), reach.end());
     pairs_.clear();
+    images_.clear();
     if (x.empty()) return;
+    const NeighborGrid grid(x, reach, skin, cell);
+    const auto found = find_in_blocks(grid);
 
-    const double largest = *std::max_element(reach.begin(), reach.end());
-    const Grid grid = grid_around(x, 2.0 * largest + skin);
-    const auto cell_of = [&](const Vec2& p) {
-        return static_cast<std::size_t>(grid.row(p.y()) * grid.nx + grid.column(p.x()));
-    };
-    // Counting sort of grains into cells; within a cell they stay in order of index.
-    std::vector<int> start(static_cast<std::size_t>(grid.nx * grid.ny) + 1, 0);
-    for (const Vec2& p : x) ++start[cell_of(p) + 1];
-    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
-    std::vector<int> member(x.size());
-    std::vector<int> fill(start.begin(), start.end() - 1);
-    for (std::size_t i = 0; i < x.size(); ++i)
-        member[static_cast<std::size_t>(fill[cell_of(x[i])]++)] = static_cast<int>(i);
+    // Counting sort by i, then each grain's partners by j.
+    const std::size_t n = x.size();
+    std::vector<std::size_t> start(n + 1, 0);
+    for (const auto& block : found)
+        for (const FoundPair& p : block) ++start[static_cast<std::size_t>(p.i) + 1];
+    for (std::size_t i = 0; i < n; ++i) start[i + 1] += start[i];
+    std::vector<Partner> partner(start[n]);
+    std::vector<std::size_t> fill(start.begin(), start.end() - 1);
+    for (const auto& block : found)
+        for (const FoundPair& p : block) partner[fill[static_cast<std::size_t>(p.i)]++] = {p.j, p.image};
 
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const std::size_t first = pairs_.size();
-        // A grain reaches over as many cells as its own and the largest partner's reach need.
-        const double range = reach[i] + largest + skin;
-        const int x0 = grid.column(x[i].x() - range), x1 = grid.column(x[i].x() + range);
-        const int y0 = grid.row(x[i].y() - range), y1 = grid.row(x[i].y() + range);
-        for (int row = y0; row <= y1; ++row) {
-            const auto begin = static_cast<std::size_t>(start[static_cast<std::size_t>(row * grid.nx + x0)]);
-            const auto end =
-                static_cast<std::size_t>(start[static_cast<std::size_t>(row * grid.nx + x1) + 1]);
-            for (std::size_t m = begin; m < end; ++m) {
-                const auto j = static_cast<std::size_t>(member[m]);
-                if (j <= i) continue;
-                const double limit = reach[i] + reach[j] + skin;
-                if ((x[j] - x[i]).squaredNorm() < limit * limit)
-                    pairs_.push_back({static_cast<int>(i), static_cast<int>(j)});
-            }
+    pairs_.resize(partner.size());
+    if (cell.periodic) images_.resize(partner.size());
+#pragma omp parallel for schedule(static) if (n > worth_threads)
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(start[i]);
+        const auto end = partner.begin() + static_cast<std::ptrdiff_t>(start[i + 1]);
+        std::sort(begin, end, [](const Partner& a, const Partner& b) { return a.j < b.j; });
+        for (std::size_t k = start[i]; k < start[i + 1]; ++k) {
+            pairs_[k] = {static_cast<int>(i), partner[k].j};
+            if (cell.periodic) images_[k] = partner[k].image;
         }
-        std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end());
     }
 }
 
 bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach) const {
-    if (x.size() != built_at_.size()) return true;
-    double used = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        used = std::max(used, (x[i] - built_at_[i]).norm() + (reach[i] - built_reach_[i]));
-    return 2.0 * used >= skin_;
+    return stale(x, reach, Box{});
+}
+
+/// A difference r = r0 F + (motion against the cell), F the cell's deformation since the build. An unlisted
+/// pair began at |r0| >= sum of reaches + skin, and |F r0| >= s |r0|, s the smaller stretch of F.
+bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach, const Box& cell) const {
+    const std::size_t n = built_at_.size();
+    if (x.size() != n || cell.periodic != built_cell_.periodic) return true;
+    if (n == 0) return false;
+    Mat2 F = Mat2::Identity();
+    Vec2 shift = Vec2::Zero();
+    double loss = 0.0;  // 1 - s
+    if (cell.periodic) {
+        F = cell.lattice() * built_cell_.lattice().inverse();
+        shift = cell.origin() - F * built_cell_.origin();
+        const double mean = std::hypot(F(0, 0) + F(1, 1), F(0, 1)),
+                     half = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
+        loss = std::max(0.0, 1.0 - 0.5 * (mean - half));
+    }
+    const double half_skin = 0.5 * skin_ * (1.0 - loss);
+    const double xx = F(0, 0), xy = F(0, 1), yy = F(1, 1);
+    const double* const now = x.data()->data();
+    const double* const then = built_at_.data()->data();
+    const double* const grown = reach.data();
+    const double* const built = built_reach_.data();
+    int stale = 0;
+#pragma omp parallel for simd schedule(static) reduction(| : stale) if (parallel : n > worth_threads)
+    for (std::size_t k = 0; k < n; ++k) {
+        const double dx = now[2 * k] - (shift.x() + xx * then[2 * k] + xy * then[2 * k + 1]);
+        const double dy = now[2 * k + 1] - (shift.y() + yy * then[2 * k + 1]);
+        const double room = half_skin - (grown[k] - built[k]) - loss * built[k];
+        stale |= static_cast<int>(room <= 0.0) | static_cast<int>(dx * dx + dy * dy >= room * room);
+    }
+    return stale != 0;
 }
 
 }  // namespace softgrain

@@ -1,9 +1,10 @@
 #pragma once
-// Cell grid + Verlet list: candidate pairs that stay complete while displacement and growth are below the
-// skin.
+// Grids of cells + Verlet list: candidate pairs that stay complete while displacement and growth are below
+// the skin.
 #include <span>
 #include <vector>
 
+#include "common/box.hpp"
 #include "common/vec.hpp"
 
 namespace softgrain {
@@ -14,16 +15,27 @@ struct Pair {
     friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-/// All pairs with |x_i - x_j| < reach_i + reach_j + skin, sorted by (i, j).
+/// All pairs with |x_j - x_i (+ image)| < reach_i + reach_j + skin, sorted by (i, j). The same list for any
+/// number of threads; made for size ratios up to 100 and beyond.
 class NeighborList {
   public:
     /// x [n] [m]; reach [n] bounding radii [m]; skin > 0 [m].
     void build(std::span<const Vec2> x, std::span<const double> reach, double skin);
+    /// The same in a periodic cell (with walls if it is not periodic). Grains may lie outside the cell.
+    /// Throws InputError if the cell is so small that a pair could meet twice.
+    void build(std::span<const Vec2> x, std::span<const double> reach, double skin, const Box& cell);
 
     /// True if a pair not in the list could touch: two grains together have eaten up the skin.
     bool stale(std::span<const Vec2> x, std::span<const double> reach) const;
+    /// The same in a periodic cell, by the lattice vectors of the build (moved since, but not flipped).
+    /// Motion along with the cell does not count, its deformation does.
+    bool stale(std::span<const Vec2> x, std::span<const double> reach, const Box& cell) const;
 
     std::span<const Pair> pairs() const { return pairs_; }
+    /// [pairs] The vector from i to j is x_j - x_i + cell.image(images()[k]); empty without a periodic cell.
+    std::span<const Image> images() const { return images_; }
+    /// The cell of the last build, needed to restart with the same bits.
+    const Box& built_cell() const { return built_cell_; }
     double skin() const { return skin_; }
     /// Positions and reaches of the last build, needed to restart with the same bits.
     std::span<const Vec2> built_at() const { return built_at_; }
@@ -31,7 +43,9 @@ class NeighborList {
 
   private:
     double skin_ = 0.0;
+    Box built_cell_;
     std::vector<Pair> pairs_;
+    std::vector<Image> images_;
     std::vector<Vec2> built_at_;
     std::vector<double> built_reach_;
 };

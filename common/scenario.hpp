@@ -12,12 +12,24 @@
 
 namespace softgrain {
 
-/// Isotropic linear elastic grain material, plane strain. 2D stress is [N/m].
+/// Isotropic grain material, plane strain. 2D stress is [N/m].
 struct Material {
-    double youngs_modulus = 1.0;  ///< E [N/m]
-    double poisson_ratio = 0.3;   ///< nu, 0 to 0.5
-    double density = 1.0;         ///< rho [kg/m^2]
-    double friction = 0.0;        ///< Coulomb coefficient between grains; walls are frictionless
+    double youngs_modulus = 1.0;         ///< E [N/m]
+    double poisson_ratio = 0.3;          ///< nu, 0 to 0.5
+    double density = 1.0;                ///< rho [kg/m^2]
+    double friction = 0.0;               ///< Coulomb coefficient between grains
+    double wall_friction = 0.0;          ///< Coulomb coefficient between grains and walls
+    double cohesion = 0.0;               ///< largest normal adhesion per length of contact [N/m]
+    std::optional<double> yield_stress;  ///< elasto-plastic grains [N/m]
+};
+
+/// A share of the grains with their own material and shape. What holds between grains (friction, wall
+/// friction, cohesion) is that of the scenario.
+struct GrainClass {
+    std::string name;
+    double share = 1.0;         ///< by number, relative to the sum over the classes
+    Material material;          ///< complete
+    double aspect_ratio = 1.0;  ///< of undeformed grains: discs or ellipses of the same area, 1 to 3
 };
 
 enum class SizeLaw { gaussian, fractal, uniform_volume, single };
@@ -39,9 +51,11 @@ struct PackingSpec {
 /// Given with a packing file; for a generated packing both set the aspect ratio and the final scale.
 struct BoxSpec {
     std::optional<double> width, height;  ///< [m]
+    bool periodic = false;                ///< a periodic cell instead of walls
 };
 
-enum class LoadingKind { isotropic, oedometric, hold };
+/// shear and gradient are for a periodic cell only.
+enum class LoadingKind { isotropic, oedometric, hold, shear, gradient };
 
 /// One loading stage. The first of its `until_...` that is reached ends it.
 struct LoadingStage {
@@ -51,17 +65,21 @@ struct LoadingStage {
         until_strain;  ///< engineering strain 1 - L/L0 along the loading axis, L0 of the run's start
     std::optional<double> until_packing_fraction;
     std::optional<double> until_packing_fraction_undeformed;
-    std::optional<double> until_stress;  ///< mean wall stress [N/m]
-    std::optional<double> duration;      ///< [s], for `hold`
-    std::optional<double> strain_rate;   ///< d(1 - L/L0)/dt [1/s]
+    std::optional<double> until_shear;   ///< tilt / height of the cell, for `shear`
+    std::optional<double> until_stress;  ///< mean stress of the walls, or of the cell [N/m]
+    std::optional<double> duration;      ///< [s], for `hold` and `gradient`
+    std::optional<double> strain_rate;   ///< d(1 - L/L0)/dt, or d(tilt / height)/dt of a shear [1/s]
     std::optional<double>
-        inertial_number;  ///< rate = I / (d sqrt(rho / p)), p = max(wall stress, 1e-3 stress scale)
+        inertial_number;   ///< rate = I / (d sqrt(rho / p)), p = max(mean stress, 1e-3 stress scale)
+    bool reverse = false;  ///< the other way (unloading): every end is then reached from above
+    double gradient_xx = 0.0, gradient_xy = 0.0,
+           gradient_yy = 0.0;  ///< of `gradient`: velocity d/dx, d/dy [1/s]
 };
 
 struct Sampling {
     double strain_interval = 0.002;  ///< between two rows of the history
     double average_window =
-        0.25;             ///< share of the interval, before a sample, over which wall forces are averaged
+        0.25;             ///< share of the interval, before a sample, over which stresses are averaged
     int frame_every = 5;  ///< a VTK frame at every n-th sample
     bool outlines = true;
     bool contacts = true;
@@ -71,12 +89,20 @@ struct Scenario {
     std::string title;
     std::uint64_t seed = 1;
     Material material;
+    std::vector<GrainClass> classes;  ///< empty: one class of discs, made of `material`
     PackingSpec packing;
     BoxSpec box;
     std::vector<LoadingStage> loading;
     Sampling sampling;
     std::map<std::string, Settings, std::less<>> method_settings;  ///< by method name
     std::filesystem::path source;                                  ///< file it was read from, for messages
+
+    std::size_t class_count() const { return classes.empty() ? 1 : classes.size(); }
+    const Material& material_of(std::size_t grain_class) const {
+        return classes.empty() ? material : classes.at(grain_class).material;
+    }
+    /// True if a class of ellipses is among the classes.
+    bool has_ellipses() const;
 };
 
 }  // namespace softgrain

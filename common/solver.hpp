@@ -32,6 +32,11 @@ class Solver {
     /// step.
     virtual const std::array<Vec2, 4>& wall_force() const = 0;
 
+    /// Love-Weber stress of a periodic cell, (1/A) sum of -force on i (x) branch from i to j, compression
+    /// positive, mean over the last step if the method has impulses [N/m]. Cheap: asked at every step. Never
+    /// called for a box with walls; throws std::logic_error if the method has no periodic cell.
+    virtual Mat2 cell_stress() const;
+
     /// Stress that sets the scale of this grain material [N/m]: E, or F0/<a0> for an aggregate.
     virtual double stress_scale() const = 0;
 

@@ -16,6 +16,17 @@ constexpr int checks_per_sample = 8;
 /// A method that has left its validity may diverge a few steps later: it must be noticed before.
 constexpr int steps_between_validity_checks = 8;
 
+double mean_density(const Scenario& scenario, const Packing& packing) {
+    if (scenario.classes.empty()) return scenario.material.density;
+    double mass = 0.0, area = 0.0;
+    for (std::size_t g = 0; g < packing.size(); ++g) {
+        const double squared = packing.radius[g] * packing.radius[g];
+        mass += scenario.material_of(packing.class_of(g)).density * squared;
+        area += squared;
+    }
+    return mass / area;
+}
+
 }  // namespace
 
 TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
@@ -26,7 +37,7 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
       undeformed_area_(packing.packing_fraction_undeformed() * packing.box.area()),
       mean_diameter_(2.0 *
                      std::sqrt(undeformed_area_ / static_cast<double>(packing.size()) / std::numbers::pi)),
-      density_(scenario.material.density),
+      density_(mean_density(scenario, packing)),
       checks_before_window_(static_cast<int>(std::lround(
           checks_per_sample * (1.0 - std::max(scenario.sampling.average_window, 1.0 / checks_per_sample))))) {
     state_.box = state_.initial_box = packing.box;
@@ -34,9 +45,7 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
 
 void TimeLoop::resume(const RunState& state) {
     state_ = state;
-    driver_.assign(1,
-                   StageDriver(scenario_.loading[static_cast<std::size_t>(state_.stage)], scenario_.sampling,
-                               state_.initial_box, state_.stage_box, undeformed_area_));
+    make_driver();
     for (Observer* observer : observers_) observer->resume(state_.frame_times);
 }
 
@@ -45,6 +54,7 @@ void TimeLoop::start() {
     state_.initial_energy = view.energy.kinetic + view.energy.elastic;
     state_.packing_fraction = view.covered_area / view.box.area();
     state_.mean_force = solver_.wall_force();
+    if (state_.box.periodic) state_.mean_cell_stress = solver_.cell_stress();
     begin_stage(0);
     sample(driver_.front(), false);
 }
@@ -55,8 +65,13 @@ void TimeLoop::begin_stage(int stage) {
     state_.stage_time = 0.0;
     state_.checks = 0;
     state_.stage_packing_fraction = state_.packing_fraction;
-    driver_.assign(1, StageDriver(scenario_.loading[static_cast<std::size_t>(stage)], scenario_.sampling,
-                                  state_.initial_box, state_.stage_box, undeformed_area_));
+    make_driver();
+}
+
+void TimeLoop::make_driver() {
+    driver_.assign(1,
+                   StageDriver(scenario_.loading[static_cast<std::size_t>(state_.stage)], state_.stage,
+                               scenario_.sampling, state_.initial_box, state_.stage_box, undeformed_area_));
 }
 
 void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& after_step) {
@@ -88,13 +103,14 @@ void TimeLoop::step(const StageDriver& driver) {
     const double remaining = (target - progress) / state_.rate;
     const double dt = remaining / std::max(1.0, std::ceil(remaining / solver_.stable_time_step()));
 
-    const WallMotion motion = driver.motion(state_.box, state_.rate);
+    const WallMotion motion = driver.motion(state_.box, state_.rate, dt);
     solver_.advance(motion, dt);
     state_.box = motion.after(dt);
     state_.time += dt;
     state_.stage_time += dt;
     ++state_.step;
     for (std::size_t w = 0; w < 4; ++w) state_.impulse[w] += solver_.wall_force()[w] * dt;
+    if (state_.box.periodic) state_.stress_impulse += solver_.cell_stress() * dt;
     state_.impulse_time += dt;
     if (state_.step % steps_between_validity_checks == 0 && solver_.outside_validity()) check(driver, false);
 }
@@ -102,10 +118,13 @@ void TimeLoop::step(const StageDriver& driver) {
 void TimeLoop::check(const StageDriver& driver, bool at_end) {
     if (!at_end) ++state_.checks;
     solver_.check_finite();
-    if (state_.impulse_time > 0.0)
+    if (state_.impulse_time > 0.0) {
         for (std::size_t w = 0; w < 4; ++w) state_.mean_force[w] = state_.impulse[w] / state_.impulse_time;
+        state_.mean_cell_stress = state_.stress_impulse / state_.impulse_time;
+    }
     if (state_.checks % checks_per_sample <= checks_before_window_) {
         for (Vec2& impulse : state_.impulse) impulse.setZero();
+        state_.stress_impulse.setZero();
         state_.impulse_time = 0.0;
     }
     const GrainView view = solver_.view(Need::area);
@@ -141,10 +160,11 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
     const Frame frame{view,
                       state_.initial_box,
                       driver.axial_strain(state_.box),
-                      driver.is_hold() ? 0.0 : state_.rate,
+                      driver.strain_rate(state_.rate),
                       density_,
                       state_.initial_energy,
                       state_.mean_force,
+                      state_.mean_cell_stress,
                       state_.step};
     std::vector<double> row;
     for (const Observable& o : observables()) row.push_back(o.measure(frame));
@@ -155,7 +175,7 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
 }
 
 double TimeLoop::mean_stress() const {
-    return 0.5 * wall_stress(state_.mean_force, state_.box).sum();
+    return 0.5 * boundary_stress(state_.mean_force, state_.mean_cell_stress, state_.box).trace();
 }
 
 double TimeLoop::loading_done() const {
@@ -164,14 +184,14 @@ double TimeLoop::loading_done() const {
     const LoadingStage& stage = scenario_.loading[static_cast<std::size_t>(state_.stage)];
     double part = 0.0;
     const auto at_least = [&](double done, double whole) {
-        if (whole > 0.0) part = std::max(part, std::clamp(done / whole, 0.0, 1.0));
+        if (whole != 0.0) part = std::max(part, std::clamp(done / whole, 0.0, 1.0));
     };
     const StageDriver& driver = driver_.front();
     if (driver.end()) at_least(driver.progress(state_.box, state_.stage_time), *driver.end());
     if (stage.until_packing_fraction)
         at_least(state_.packing_fraction - state_.stage_packing_fraction,
                  *stage.until_packing_fraction - state_.stage_packing_fraction);
-    if (stage.until_stress) at_least(mean_stress(), *stage.until_stress);
+    if (stage.until_stress && !stage.reverse) at_least(mean_stress(), *stage.until_stress);
     return (state_.stage + part) / stages;
 }
 
@@ -184,6 +204,9 @@ void RunState::save(Checkpoint& to) const {
     to.put("stage_box", std::span<const double>(stage_box.position));
     to.put("impulse", std::span<const Vec2>(impulse));
     to.put("mean_force", std::span<const Vec2>(mean_force));
+    to.put("tilt", std::vector<double>{box.tilt, initial_box.tilt, stage_box.tilt});
+    to.put("periodic", std::vector<int>{box.periodic ? 1 : 0});
+    to.put("cell_stress", std::vector<Mat2>{stress_impulse, mean_cell_stress});
     to.put("frame_times", frame_times);
     std::vector<double> flat;
     for (const auto& row : history) flat.insert(flat.end(), row.begin(), row.end());
@@ -218,6 +241,17 @@ void RunState::load(const Checkpoint& from) {
     for (std::size_t w = 0; w < 4; ++w) impulse[w] = vectors.at(w);
     from.get("mean_force", vectors);
     for (std::size_t w = 0; w < 4; ++w) mean_force[w] = vectors.at(w);
+    from.get("tilt", values);
+    box.tilt = values.at(0);
+    initial_box.tilt = values.at(1);
+    stage_box.tilt = values.at(2);
+    std::vector<int> flags;
+    from.get("periodic", flags);
+    box.periodic = initial_box.periodic = stage_box.periodic = flags.at(0) != 0;
+    std::vector<Mat2> stresses;
+    from.get("cell_stress", stresses);
+    stress_impulse = stresses.at(0);
+    mean_cell_stress = stresses.at(1);
     from.get("frame_times", frame_times);
     from.get("history", values);
     const std::size_t columns = observables().size();

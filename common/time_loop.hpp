@@ -1,5 +1,5 @@
 #pragma once
-// The one time loop: moves the walls, asks the solver to advance, samples at equal strain.
+// The one time loop: moves the walls or the cell, asks the solver to advance, samples at equal strain.
 #include <atomic>
 #include <functional>
 #include <string>
@@ -26,9 +26,11 @@ struct RunState {
     double packing_fraction = 0.0;  ///< at the last check
     std::array<Vec2, 4> impulse{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
                                 Vec2::Zero()};  ///< since the mean began [N s]
+    Mat2 stress_impulse = Mat2::Zero();         ///< of a periodic cell, since the mean began [N s / m]
     double impulse_time = 0.0;                  ///< [s]
     std::array<Vec2, 4> mean_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
                                    Vec2::Zero()};  ///< up to the last check [N]
+    Mat2 mean_cell_stress = Mat2::Zero();          ///< the same, of a periodic cell [N/m]
     double rate = 0.0;                             ///< d(progress)/dt of the last step [1/s]
     std::vector<std::vector<double>> history;      ///< a row per sample, columns as the table of observables
     std::vector<double> frame_times;               ///< [s]
@@ -48,7 +50,8 @@ class TimeLoop {
     void resume(const RunState& state);
 
     /// Runs until the loading is done, the method leaves its validity (see state().ended), or `stop` becomes
-    /// non-zero. `after_step` is called after every step. Throws DivergedError, OutputError.
+    /// non-zero. `after_step` is called after every step. Throws DivergedError, OutputError, and
+    /// InputError if a stage turns out to begin beyond its end.
     void go(
         const std::atomic<int>& stop, const std::function<void()>& after_step = [] {});
 
@@ -60,6 +63,7 @@ class TimeLoop {
   private:
     void start();
     void begin_stage(int stage);
+    void make_driver();
     void step(const StageDriver& driver);
     void check(const StageDriver& driver, bool at_end);
     void sample(const StageDriver& driver, bool last);
@@ -71,7 +75,7 @@ class TimeLoop {
     double undeformed_area_ = 0.0;
     double mean_diameter_ = 0.0;
     double density_ = 0.0;
-    int checks_before_window_ = 0;  ///< of a sample interval; the mean of the wall forces is over the rest
+    int checks_before_window_ = 0;  ///< of a sample interval; the mean of the stresses is over the rest
     RunState state_;
     std::vector<StageDriver> driver_;  ///< the present stage's, one or none
 };

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "common/io/scenario_document.hpp"
 #include "common/io/scenario_schema.hpp"
 
@@ -64,41 +61,6 @@ void check_packing_file(const CheckedTable& packing, const CheckedTable& box,
                    fmt::format("names a file that is not there: '{}'", file.string()));
 }
 
-bool is_end(std::string_view key) {
-    return key.starts_with("until_");
-}
-
-void check_hold(const CheckedTable& stage, ErrorList& errors) {
-    if (!stage.has("duration"))
-        errors.add(stage.place, stage.full("duration"), "must be given: a hold ends after it");
-    for (const auto& [key, given] : stage.given)
-        if (key != "kind" && key != "duration")
-            errors.add(given.place, stage.full(key), "is not for a hold, whose walls stand still: remove it");
-}
-
-void check_moving_stage(const CheckedTable& stage, bool oedometric, ErrorList& errors) {
-    if (oedometric && !stage.has("wall"))
-        errors.add(stage.place, stage.full("wall"),
-                   "must be given for an oedometric stage: left, right, bottom or top");
-    if (!oedometric && stage.has("wall"))
-        errors.add(stage.place_of("wall"), stage.full("wall"),
-                   "is not for an isotropic stage, all walls move: remove it");
-    if (stage.has("duration"))
-        errors.add(stage.place_of("duration"), stage.full("duration"),
-                   "is for a hold only: use an until_... key");
-    if (std::none_of(stage.given.begin(), stage.given.end(), [](const auto& g) { return is_end(g.first); }))
-        errors.add(
-            stage.place, stage.path,
-            "has no end: give until_strain, until_packing_fraction, until_packing_fraction_undeformed or "
-            "until_stress");
-    if (stage.has("strain_rate") && stage.has("inertial_number"))
-        errors.add(std::max(stage.place_of("strain_rate"), stage.place_of("inertial_number"),
-                            [](const Place& a, const Place& b) { return a.line < b.line; }),
-                   stage.path, "has both strain_rate and inertial_number: remove one");
-    if (!stage.has("strain_rate") && !stage.has("inertial_number"))
-        errors.add(stage.place, stage.path, "has no speed: give strain_rate or inertial_number");
-}
-
 }  // namespace
 
 void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
@@ -118,15 +80,6 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
             errors.add(box.place_of("height"), box.full("height"),
                        fmt::format("must be within a factor of {} of box.width", largest_aspect_ratio));
     }
-}
-
-void check_stage(const CheckedTable& stage, ErrorList& errors) {
-    if (!stage.sound({"kind"})) return;
-    const std::string& kind = stage.settings.text("kind");
-    if (kind == "hold")
-        check_hold(stage, errors);
-    else
-        check_moving_stage(stage, kind == "oedometric", errors);
 }
 
 std::filesystem::path packing_file(const CheckedTable& packing, const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 // Checks between the keys of a table, and between tables.
 #include <filesystem>
+#include <span>
 
 #include "common/io/scenario_errors.hpp"
 #include "common/io/scenario_table.hpp"
@@ -10,7 +11,10 @@ namespace softgrain::scenario_io {
 /// `folder` is the one that a relative packing.path starts from.
 void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
                    ErrorList& errors);
-void check_stage(const CheckedTable& stage, ErrorList& errors);
+/// `box` tells whether there are walls or a periodic cell.
+void check_stage(const CheckedTable& stage, const CheckedTable& box, ErrorList& errors);
+/// Each until_strain and until_shear lies ahead of where its stage begins, as far as that is known.
+void check_course(std::span<const CheckedTable> stages, ErrorList& errors);
 
 /// packing.path as an absolute path.
 std::filesystem::path packing_file(const CheckedTable& packing, const std::filesystem::path& folder);

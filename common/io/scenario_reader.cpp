@@ -18,6 +18,9 @@ namespace {
 
 using namespace scenario_io;
 
+constexpr std::size_t most_classes = 255;  // a grain's class is kept in a byte
+constexpr std::size_t most_stages = 10000;
+
 template <class Names>
 int position_in(const Names& names, std::string_view word) {
     return static_cast<int>(std::find(names.begin(), names.end(), word) - names.begin());
@@ -28,7 +31,23 @@ std::optional<double> optional_number(const Settings& settings, std::string_view
 }
 
 Material material_of(const Settings& s) {
-    return {s.number("youngs_modulus"), s.number("poisson_ratio"), s.number("density"), s.number("friction")};
+    return {s.number("youngs_modulus"),
+            s.number("poisson_ratio"),
+            s.number("density"),
+            s.number("friction"),
+            s.number("wall_friction"),
+            s.number("cohesion"),
+            optional_number(s, "yield_stress")};
+}
+
+GrainClass class_of(const Settings& s, const Material& material) {
+    GrainClass grain_class{s.text("name"), s.number("share"), material, s.number("aspect_ratio")};
+    Material& own = grain_class.material;
+    own.youngs_modulus = optional_number(s, "youngs_modulus").value_or(material.youngs_modulus);
+    own.poisson_ratio = optional_number(s, "poisson_ratio").value_or(material.poisson_ratio);
+    own.density = optional_number(s, "density").value_or(material.density);
+    if (s.has("yield_stress")) own.yield_stress = s.number("yield_stress");
+    return grain_class;
 }
 
 PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& folder) {
@@ -53,10 +72,15 @@ LoadingStage stage_of(const Settings& s) {
     stage.until_strain = optional_number(s, "until_strain");
     stage.until_packing_fraction = optional_number(s, "until_packing_fraction");
     stage.until_packing_fraction_undeformed = optional_number(s, "until_packing_fraction_undeformed");
+    stage.until_shear = optional_number(s, "until_shear");
     stage.until_stress = optional_number(s, "until_stress");
     stage.duration = optional_number(s, "duration");
     stage.strain_rate = optional_number(s, "strain_rate");
     stage.inertial_number = optional_number(s, "inertial_number");
+    stage.reverse = s.boolean("reverse");
+    stage.gradient_xx = optional_number(s, "gradient_xx").value_or(0.0);
+    stage.gradient_xy = optional_number(s, "gradient_xy").value_or(0.0);
+    stage.gradient_yy = optional_number(s, "gradient_yy").value_or(0.0);
     return stage;
 }
 
@@ -83,13 +107,16 @@ class Reader {
         scenario.title = check_table(&document_, "", core_table("").keys, errors_).settings.text("title");
         scenario.seed = static_cast<std::uint64_t>(table("random").settings.integer("seed"));
         scenario.material = material_of(table("material").settings);
+        for (const CheckedTable& one : repeated("grain_class", most_classes))
+            scenario.classes.push_back(class_of(one.settings, scenario.material));
         const CheckedTable packing = table("packing");
         const CheckedTable box = table("box");
         const std::filesystem::path folder = source_.parent_path();
         check_packing(packing, box, folder, errors_);
         scenario.packing = packing_of(packing, folder);
-        scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height")};
-        scenario.loading = stages();
+        scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height"),
+                        box.settings.boolean("periodic")};
+        scenario.loading = stages(box);
         scenario.sampling = sampling_of(table("sampling").settings);
         for (const MethodKeys& method : methods_)
             scenario.method_settings.emplace(method.name, table(method.name).settings);
@@ -118,32 +145,47 @@ class Reader {
         return check_table(node, std::string(name), keys.keys, errors_);
     }
 
-    std::vector<LoadingStage> stages() {
+    /// The tables of an array of tables, none if it is not there.
+    std::vector<CheckedTable> repeated(std::string_view name, std::size_t most) {
+        const Node* node = document_.find(name);
+        if (node == nullptr) return {};
+        if (node->kind != Node::Kind::array) {
+            errors_.add(
+                node->place, name,
+                fmt::format("must be an array of tables, write [[{}]], got {}", name, describe(*node)));
+            return {};
+        }
+        std::vector<CheckedTable> all;
+        for (const Node& child : node->children) {
+            const std::string path = fmt::format("{}.{}", name, all.size());
+            if (all.size() == most) {
+                errors_.add(child.place, path, fmt::format("is one too many, at most {} are accepted", most));
+                break;
+            }
+            const bool is_table = child.kind == Node::Kind::table;
+            if (is_table)
+                report_unknown(child, path, spec(name));
+            else
+                errors_.add(child.place, path, fmt::format("must be a table, got {}", describe(child)));
+            all.push_back(check_table(is_table ? &child : nullptr, path, spec(name).keys, errors_));
+        }
+        return all;
+    }
+
+    std::vector<LoadingStage> stages(const CheckedTable& box) {
         const Node* node = document_.find("loading");
         if (node == nullptr || (node->kind == Node::Kind::array && node->children.empty())) {
             errors_.add(node == nullptr ? Place{} : node->place, "loading",
                         "has no stage: write at least one [[loading]] table");
             return {};
         }
-        if (node->kind != Node::Kind::array) {
-            errors_.add(
-                node->place, "loading",
-                fmt::format("must be an array of tables, write [[loading]], got {}", describe(*node)));
-            return {};
-        }
+        const std::vector<CheckedTable> tables = repeated("loading", most_stages);
         std::vector<LoadingStage> all;
-        for (const Node& child : node->children) {
-            const std::string path = fmt::format("loading.{}", all.size());
-            all.emplace_back();
-            if (child.kind != Node::Kind::table) {
-                errors_.add(child.place, path, fmt::format("must be a table, got {}", describe(child)));
-                continue;
-            }
-            report_unknown(child, path, spec("loading"));
-            const CheckedTable stage = check_table(&child, path, spec("loading").keys, errors_);
-            check_stage(stage, errors_);
-            all.back() = stage_of(stage.settings);
+        for (std::size_t k = 0; k < tables.size(); ++k) {
+            if (node->children[k].kind == Node::Kind::table) check_stage(tables[k], box, errors_);
+            all.push_back(stage_of(tables[k].settings));
         }
+        check_course(tables, errors_);
         return all;
     }
 

@@ -33,6 +33,25 @@ const std::vector<KeySpec> material_keys{
     {"poisson_ratio", number, Material{}.poisson_ratio, "", "Poisson's ratio, plane strain", Range{0.0, 0.5}},
     {"density", number, Material{}.density, "kg/m^2", "mass per area", positive},
     {"friction", number, Material{}.friction, "", "Coulomb coefficient between grains", not_negative},
+    {"wall_friction", number, Material{}.wall_friction, "", "Coulomb coefficient between grains and walls",
+     not_negative},
+    {"cohesion", number, Material{}.cohesion, "N/m", "largest normal adhesion per length of contact",
+     not_negative},
+    {"yield_stress", number, Value(), "N/m", "of elasto-plastic grains; elastic if not given", positive},
+};
+
+const std::vector<KeySpec> class_keys{
+    {"name", text, Value(std::string()), "", "for people"},
+    {"share", number, GrainClass{}.share, "", "of the grains by number, relative to the sum over the classes",
+     positive},
+    {"youngs_modulus", number, Value(), "N/m", "that of [material] if not given", positive},
+    {"poisson_ratio", number, Value(), "", "that of [material] if not given", Range{0.0, 0.5}},
+    {"density", number, Value(), "kg/m^2", "that of [material] if not given", positive},
+    {"yield_stress", number, Value(), "N/m", "that of [material] if not given", positive},
+    {"aspect_ratio", number, GrainClass{}.aspect_ratio, "",
+     "long / short axis of ellipses of the area of the disc; a generator puts each at a random angle inside "
+     "a disc of its long axis, and packs those discs",
+     Range{1.0, 3.0}},
 };
 
 const std::vector<KeySpec> packing_keys{
@@ -50,46 +69,62 @@ const std::vector<KeySpec> packing_keys{
     {"fractal_dimension", number, PackingSpec{}.fractal_dimension, "", "D of fractal: N(>r) ~ r^-D",
      positive},
     {"packing_fraction", number, Value(), "",
-     "stop at this undeformed packing fraction; without it at the jamming point", fraction},
+     "stop at this undeformed packing fraction; without it at the jamming point (of ellipses: of the discs "
+     "around them)",
+     fraction},
 };
 
 const std::vector<KeySpec> box_keys{
     {"width", number, Value(), "m", "of the box; with a generated packing it sets aspect ratio and scale",
      positive},
     {"height", number, Value(), "m", "of the box", positive},
+    {"periodic", boolean, Value(false), "", "a periodic cell instead of walls"},
 };
 
 const std::vector<KeySpec> loading_keys{
     {"kind", text, Value(std::string(loading_kind_names[0])), "",
-     "all walls (isotropic), one wall (oedometric) or none (hold)", any_number, words(loading_kind_names)},
-    {"wall", text, Value(), "", "moving wall, oedometric only", any_number, words(wall_names)},
-    {"until_strain", number, Value(), "", "end at this 1 - L/L0", fraction},
+     "all walls (isotropic), one wall (oedometric) or none (hold); of a periodic cell also shear at constant "
+     "area, or any velocity gradient",
+     any_number, words(loading_kind_names)},
+    {"wall", text, Value(), "", "moving wall or face, oedometric only", any_number, words(wall_names)},
+    {"until_strain", number, Value(), "", "end at this 1 - L/L0, L0 of the run's start",
+     Range{-1.0, 1.0, false, true}},
     {"until_packing_fraction", number, Value(), "", "end at this covered area / box area", fraction},
     {"until_packing_fraction_undeformed", number, Value(), "", "end at this undeformed grain area / box area",
      positive},
-    {"until_stress", number, Value(), "N/m", "end at this mean wall stress", positive},
-    {"duration", number, Value(), "s", "length of a hold", positive},
-    {"strain_rate", number, Value(), "1/s", "d(1 - L/L0)/dt", positive},
+    {"until_shear", number, Value(), "", "end at this tilt / height of the periodic cell, shear only",
+     Range{-100.0, 100.0}},
+    {"until_stress", number, Value(), "N/m", "end at this mean stress of the walls or the cell", positive},
+    {"duration", number, Value(), "s", "length of a hold or gradient", positive},
+    {"strain_rate", number, Value(), "1/s", "d(1 - L/L0)/dt, or d(tilt / height)/dt of a shear", positive},
     {"inertial_number", number, Value(), "", "I = strain rate * d sqrt(rho / p), instead of strain_rate",
      positive},
+    {"reverse", boolean, Value(false), "",
+     "move the other way (unload); every end is then reached from above"},
+    {"gradient_xx", number, Value(), "1/s", "velocity gradient dvx/dx, gradient only; 0 if not given"},
+    {"gradient_xy", number, Value(), "1/s", "velocity gradient dvx/dy, gradient only; 0 if not given"},
+    {"gradient_yy", number, Value(), "1/s", "velocity gradient dvy/dy, gradient only; 0 if not given"},
 };
 
 const std::vector<KeySpec> sampling_keys{
     {"strain_interval", number, Sampling{}.strain_interval, "", "strain between two rows of the history",
      Range{0.0, 1.0, true, false}},
     {"average_window", number, Sampling{}.average_window, "",
-     "share of the interval before a sample over which wall forces are averaged", Range{0.0, 1.0}},
+     "share of the interval before a sample over which stresses are averaged", Range{0.0, 1.0}},
     {"frame_every", integer, Value(std::int64_t{Sampling{}.frame_every}), "", "samples for one VTK frame",
      Range{1.0, 1e9}},
     {"outlines", boolean, Value(Sampling{}.outlines), "", "write grain outlines"},
     {"contacts", boolean, Value(Sampling{}.contacts), "", "write contacts"},
 };
 
-const std::array<TableSpec, 7> tables{{
+const std::array<TableSpec, 8> tables{{
     {"", "", top_keys},
     {"random", "Random numbers.", random_keys},
     {"material", "The grains' material, plane strain, per unit thickness.", material_keys},
-    {"packing", "The initial discs: a file (path) or a generator (all other keys).", packing_keys},
+    {"grain_class",
+     "A share of the grains with its own material or shape; none: all grains are discs of [material].",
+     class_keys, true},
+    {"packing", "The initial grains: a file (path) or a generator (all other keys).", packing_keys},
     {"box", "The container.", box_keys},
     {"loading", "A stage of the loading; the first `until_...` that is reached ends it.", loading_keys, true},
     {"sampling", "What is written, and how often.", sampling_keys},

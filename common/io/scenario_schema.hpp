@@ -11,7 +11,8 @@ namespace softgrain::scenario_io {
 
 inline constexpr std::array<std::string_view, 4> size_law_names{"gaussian", "fractal", "uniform_volume",
                                                                 "single"};
-inline constexpr std::array<std::string_view, 3> loading_kind_names{"isotropic", "oedometric", "hold"};
+inline constexpr std::array<std::string_view, 5> loading_kind_names{"isotropic", "oedometric", "hold",
+                                                                    "shear", "gradient"};
 
 struct TableSpec {
     std::string_view name;  ///< "" for the keys before the first table

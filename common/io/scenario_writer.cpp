@@ -60,6 +60,21 @@ Settings settings_of(const Material& m) {
     s.set("poisson_ratio", m.poisson_ratio);
     s.set("density", m.density);
     s.set("friction", m.friction);
+    s.set("wall_friction", m.wall_friction);
+    s.set("cohesion", m.cohesion);
+    set_optional(s, "yield_stress", m.yield_stress);
+    return s;
+}
+
+Settings settings_of(const GrainClass& c) {
+    Settings s;
+    s.set("name", c.name);
+    s.set("share", c.share);
+    s.set("youngs_modulus", c.material.youngs_modulus);
+    s.set("poisson_ratio", c.material.poisson_ratio);
+    s.set("density", c.material.density);
+    set_optional(s, "yield_stress", c.material.yield_stress);
+    s.set("aspect_ratio", c.aspect_ratio);
     return s;
 }
 
@@ -88,10 +103,17 @@ Settings settings_of(const LoadingStage& stage) {
     set_optional(s, "until_strain", stage.until_strain);
     set_optional(s, "until_packing_fraction", stage.until_packing_fraction);
     set_optional(s, "until_packing_fraction_undeformed", stage.until_packing_fraction_undeformed);
+    set_optional(s, "until_shear", stage.until_shear);
     set_optional(s, "until_stress", stage.until_stress);
     set_optional(s, "duration", stage.duration);
     set_optional(s, "strain_rate", stage.strain_rate);
     set_optional(s, "inertial_number", stage.inertial_number);
+    if (stage.reverse) s.set("reverse", true);
+    if (stage.kind == LoadingKind::gradient) {
+        s.set("gradient_xx", stage.gradient_xx);
+        s.set("gradient_xy", stage.gradient_xy);
+        s.set("gradient_yy", stage.gradient_yy);
+    }
     return s;
 }
 
@@ -115,13 +137,16 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
     if (table == "box") {
         set_optional(s, "width", scenario.box.width);
         set_optional(s, "height", scenario.box.height);
+        s.set("periodic", scenario.box.periodic);
     }
     if (table == "sampling") return {settings_of(scenario.sampling)};
-    if (table == "loading") {
-        std::vector<Settings> stages;
-        for (const LoadingStage& stage : scenario.loading) stages.push_back(settings_of(stage));
-        return stages;
-    }
+    const auto each = [](const auto& entries) {
+        std::vector<Settings> all;
+        for (const auto& entry : entries) all.push_back(settings_of(entry));
+        return all;
+    };
+    if (table == "grain_class") return each(scenario.classes);
+    if (table == "loading") return each(scenario.loading);
     return {s};
 }
 

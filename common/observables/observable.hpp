@@ -13,9 +13,10 @@ struct Frame {
     Box initial_box;
     double axial_strain;             ///< 1 - L/L0 along the loading axis
     double strain_rate;              ///< [1/s]
-    double density;                  ///< of the grain material [kg/m^2]
+    double density;                  ///< mean of the grain materials [kg/m^2]
     double initial_energy;           ///< kinetic + elastic at the start [J]
     std::array<Vec2, 4> wall_force;  ///< mean since the last check of the loop [N]
+    Mat2 cell_stress;                ///< the same, of a periodic cell; zero with walls [N/m]
     long long step;
 };
 

@@ -7,12 +7,25 @@ Vec2 wall_stress(const std::array<Vec2, 4>& wall_force, const Box& box) {
             0.5 * (wall_force[3].y() - wall_force[2].y()) / box.width()};
 }
 
+Mat2 boundary_stress(const std::array<Vec2, 4>& wall_force, const Mat2& cell_stress, const Box& box) {
+    if (box.periodic) return 0.5 * (cell_stress + cell_stress.transpose());
+    const Vec2 normal = wall_stress(wall_force, box);
+    const double on_sides = 0.5 * (wall_force[1].y() - wall_force[0].y()) / box.height();
+    const double on_ends = 0.5 * (wall_force[3].x() - wall_force[2].x()) / box.width();
+    const double shear = 0.5 * (on_sides + on_ends);
+    return (Mat2() << normal.x(), shear, shear, normal.y()).finished();
+}
+
+Vec2 branch(const GrainView& view, const GrainContact& contact) {
+    const Vec2& from = view.centroid[static_cast<std::size_t>(contact.i)];
+    if (contact.with_wall()) return contact.point - from;
+    const Vec2 to_other = view.centroid[static_cast<std::size_t>(contact.j)] - from;
+    return view.box.periodic ? view.box.nearest(to_other) : to_other;
+}
+
 Mat2 love_weber_stress(const GrainView& view) {
     Mat2 sum = Mat2::Zero();
-    for (const GrainContact& c : view.contacts) {
-        const Vec2& from = c.with_wall() ? c.point : view.centroid[static_cast<std::size_t>(c.j)];
-        sum += c.force * (view.centroid[static_cast<std::size_t>(c.i)] - from).transpose();
-    }
+    for (const GrainContact& c : view.contacts) sum -= c.force * branch(view, c).transpose();
     return sum / view.box.area();
 }
 

@@ -7,7 +7,15 @@ namespace softgrain {
 /// Wall reaction / wall length: component 0 is xx (left and right), 1 is yy (bottom and top).
 Vec2 wall_stress(const std::array<Vec2, 4>& wall_force, const Box& box);
 
-/// Love-Weber: (1/A) sum of force (x) branch over all contacts, walls included.
+/// Stress of the sample from its boundary: of the walls, xy from their tangential forces, or of a periodic
+/// cell. Symmetric part. `wall_force` and `cell_stress` as the solver gives them.
+Mat2 boundary_stress(const std::array<Vec2, 4>& wall_force, const Mat2& cell_stress, const Box& box);
+
+/// From grain i to grain j, by the nearest image of a periodic cell, or from grain i to the contact point at
+/// a wall [m].
+Vec2 branch(const GrainView& view, const GrainContact& contact);
+
+/// Love-Weber: -(1/A) sum of the force on i (x) branch over all contacts, walls included.
 Mat2 love_weber_stress(const GrainView& view);
 
 /// Mean net contact force on a grain / mean normal force of a contact; 0 without contacts.

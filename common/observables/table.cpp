@@ -17,8 +17,13 @@ double sum(std::span<const double> values) {
     return total;
 }
 
+/// Of the walls or of the periodic cell.
+Mat2 stress(const Frame& f) {
+    return boundary_stress(f.wall_force, f.cell_stress, f.view.box);
+}
+
 double mean_stress(const Frame& f) {
-    return 0.5 * wall_stress(f.wall_force, f.view.box).sum();
+    return 0.5 * stress(f).trace();
 }
 
 /// I = strain rate * d * sqrt(rho / p), d the diameter of the disc of mean area.
@@ -52,15 +57,13 @@ constexpr std::array table{
                [](const Frame& f) { return coordination(f.view).without_rattlers; }},
     Observable{"coordination_number_with_walls", "", N::contacts,
                [](const Frame& f) { return coordination(f.view).with_walls; }},
-    Observable{"stress_xx", "N/m", N::base,
-               [](const Frame& f) { return wall_stress(f.wall_force, f.view.box).x(); }},
-    Observable{"stress_yy", "N/m", N::base,
-               [](const Frame& f) { return wall_stress(f.wall_force, f.view.box).y(); }},
+    Observable{"stress_xx", "N/m", N::base, [](const Frame& f) { return stress(f)(0, 0); }},
+    Observable{"stress_yy", "N/m", N::base, [](const Frame& f) { return stress(f)(1, 1); }},
     Observable{"mean_stress", "N/m", N::base, mean_stress},
     Observable{"deviatoric_stress", "N/m", N::base,
                [](const Frame& f) {
-                   const Vec2 s = wall_stress(f.wall_force, f.view.box);
-                   return 0.5 * (s.x() - s.y());
+                   const Mat2 s = stress(f);
+                   return 0.5 * (s(0, 0) - s(1, 1));
                }},
     Observable{"love_weber_xx", "N/m", N::contacts,
                [](const Frame& f) { return love_weber_stress(f.view)(0, 0); }},
@@ -78,6 +81,10 @@ constexpr std::array table{
     Observable{"external_work", "J", N::base, [](const Frame& f) { return f.view.energy.external_work; }},
     Observable{"dissipated_energy", "J", N::base, [](const Frame& f) { return f.view.energy.dissipated(); }},
     Observable{"energy_residual", "J", N::base, energy_residual},
+    Observable{"plastic_energy", "J", N::base, [](const Frame& f) { return f.view.energy.plastic; }},
+    Observable{"adhesion_energy", "J", N::base, [](const Frame& f) { return f.view.energy.adhesion; }},
+    Observable{"stress_xy", "N/m", N::base, [](const Frame& f) { return stress(f)(0, 1); }},
+    Observable{"shear_strain", "", N::base, [](const Frame& f) { return f.view.box.shear_strain(); }},
 };
 
 }  // namespace

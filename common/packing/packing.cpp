@@ -1,10 +1,24 @@
 #include "common/packing/packing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
 namespace softgrain {
+
+Vec2 Packing::half_axes(std::size_t grain) const {
+    if (aspect_ratio.empty()) return Vec2::Constant(radius[grain]);
+    const double root = std::sqrt(aspect_ratio[grain]);
+    return {radius[grain] * root, radius[grain] / root};
+}
+
+Mat2 Packing::shape_of(std::size_t grain) const {
+    if (aspect_ratio.empty()) return Mat2::Identity() * radius[grain];
+    const double c = std::cos(angle[grain]), s = std::sin(angle[grain]);
+    const Mat2 turn = (Mat2() << c, -s, s, c).finished();
+    return turn * half_axes(grain).asDiagonal() * turn.transpose();
+}
 
 double Packing::packing_fraction_undeformed() const {
     double area = 0.0;

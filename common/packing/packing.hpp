@@ -1,5 +1,6 @@
 #pragma once
 // The one initial packing that every method starts from.
+#include <cstdint>
 #include <vector>
 
 #include "common/box.hpp"
@@ -7,16 +8,27 @@
 
 namespace softgrain {
 
-/// n discs in a box. `frame` turns (or mirrors) the inner structure of a grain, for methods that have one.
+/// n discs or ellipses in a box. `frame` turns (or mirrors) the inner structure of a grain, for methods that
+/// have one.
 struct Packing {
     Box box;
     std::vector<Vec2> center;    ///< [n] [m]
-    std::vector<double> radius;  ///< [n] [m], > 0
+    std::vector<double> radius;  ///< [n] [m], > 0; of an ellipse: of the disc of the same area, sqrt(a b)
     std::vector<Mat2> frame;     ///< [n] orthogonal, or empty for identity
+    std::vector<std::uint8_t> grain_class;  ///< [n] index of the scenario's class, or empty for 0
+    std::vector<double> aspect_ratio;       ///< [n] a / b >= 1, or empty for discs
+    std::vector<double> angle;  ///< [n] of the long axis against x [rad], or empty with aspect_ratio
 
     std::size_t size() const { return center.size(); }
+    std::size_t class_of(std::size_t grain) const { return grain_class.empty() ? 0 : grain_class[grain]; }
+    /// Half axes along and across `angle` [m].
+    Vec2 half_axes(std::size_t grain) const;
+    /// Radius of the disc around the grain [m].
+    double reach(std::size_t grain) const { return half_axes(grain).x(); }
+    /// The undeformed grain is center + shape u, |u| <= 1, symmetric [m].
+    Mat2 shape_of(std::size_t grain) const;
     Mat2 frame_of(std::size_t grain) const { return frame.empty() ? Mat2::Identity() : frame[grain]; }
-    /// Sum of disc areas / box area.
+    /// Sum of grain areas / box area.
     double packing_fraction_undeformed() const;
     double mean_radius() const;
     double smallest_radius() const;
