@@ -15,9 +15,9 @@ struct Packing {
     std::vector<Vec2> center;    ///< [n] [m]
     std::vector<double> radius;  ///< [n] [m], > 0; of an ellipse: of the disc of the same area, sqrt(a b)
     std::vector<Mat2> frame;     ///< [n] orthogonal, or empty for identity
-    std::vector<std::uint8_t> grain_class;  ///< [n] index of the scenario's class, or empty for 0
-    std::vector<double> aspect_ratio;       ///< [n] a / b >= 1, or empty for discs
-    std::vector<double> angle;  ///< [n] of the long axis against x [rad], or empty with aspect_ratio
+    std::vector<std::uint8_t> grain_class = {};  ///< [n] index of the scenario's class, or empty for 0
+    std::vector<double> aspect_ratio = {};       ///< [n] a / b >= 1, or empty for discs
+    std::vector<double> angle = {};  ///< [n] of the long axis against x [rad], or empty with aspect_ratio
 
     std::size_t size() const { return center.size(); }
     std::size_t class_of(std::size_t grain) const { return grain_class.empty() ? 0 : grain_class[grain]; }
