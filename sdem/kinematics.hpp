@@ -2,36 +2,54 @@
 // How much a grain may deform: which part of F' is free, and what is imposed on F after a step.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
-#include "sdem/polar.hpp"
+#include "sdem/motion_law.hpp"
+#include "sdem/tensor.hpp"
 
 namespace softgrain::sdem {
 
-/// The paper's names: two dimensions, number of deformation modes.
-enum class Kinematics {
-    D2F0,  ///< rigid disc
-    D2F1,  ///< volumetric only
-    D2F3,  ///< full
+/// Inertia of a grain's deformation about its reference axes: M = m a^2/4 and m b^2/4, a column of F each.
+struct Inertia {
+    double x, y;  ///< [kg m^2]
+
+    Tensor times(const Tensor& rate) const { return {x * rate.xx, y * rate.xy, x * rate.yx, y * rate.yy}; }
+    Tensor divides(const Tensor& moment) const {
+        const double to_x = 1.0 / x, to_y = 1.0 / y;
+        return {to_x * moment.xx, to_y * moment.xy, to_x * moment.yx, to_y * moment.yy};
+    }
+    /// Share of `rate` along `direction`, as a factor.
+    double share(const Tensor& rate, const Tensor& direction) const {
+        const Tensor weighted = times(direction);
+        return contraction(rate, weighted) / contraction(direction, weighted);
+    }
 };
 
-/// Share of `rate` along `direction`, as a factor.
-inline double share(const Mat2& rate, const Mat2& direction) {
-    return rate.cwiseProduct(direction).sum() / direction.squaredNorm();
-}
-
-/// F' = spin * turned(F) turns the grain without deforming it.
-inline Mat2 turned(const Mat2& F) {
-    Mat2 W;
-    W << -F(1, 0), -F(1, 1), F(0, 0), F(0, 1);
-    return W;
-}
-
 /// The part of F' that deforms the grain: without the spin that carries all its angular momentum.
-inline Mat2 without_spin(const Mat2& F, const Mat2& F_rate) {
-    const Mat2 W = turned(F);
-    return F_rate - share(F_rate, W) * W;
+inline Tensor without_spin(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
+    const Tensor W = F.turned();
+    return rate - inertia.share(rate, W) * W;
 }
+
+/// Inertia sigma times its own against changes of area: lets nearly incompressible grains take long steps.
+/// C = cofactor of F is orthogonal to any spin, so angular momentum is untouched.
+struct Dilation {
+    Tensor C, C_per_inertia;
+    double sigma, norm;
+
+    Dilation(const Tensor& F, const Inertia& inertia, double extra)
+        : C(F.cofactor()),
+          C_per_inertia(inertia.divides(C)),
+          sigma(extra),
+          norm(contraction(C, C_per_inertia)) {}
+
+    /// Accelerations with the extra inertia, from those without.
+    Tensor slowed(const Tensor& acceleration) const {
+        return acceleration - (sigma / (1.0 + sigma) * contraction(C, acceleration) / norm) * C_per_inertia;
+    }
+    /// What the extra inertia adds to the momentum of a rate.
+    Tensor momentum(const Tensor& rate) const { return (sigma * contraction(C, rate) / norm) * C; }
+    double energy(const Tensor& rate) const { return 0.5 * contraction(momentum(rate), rate); }
+};
 
 /// Largest change of eps_iso that one step may impose, so that a violent change cannot run away.
 inline constexpr double largest_dilation_step = 1e-3;
@@ -41,28 +59,29 @@ template <Kinematics K, bool Incompressible>
 struct Motion {
     static constexpr bool imposes_area = Incompressible && K != Kinematics::D2F0;
     static constexpr bool corrects = imposes_area || K == Kinematics::D2F0;
+    static constexpr bool constrains = imposes_area || K != Kinematics::D2F3;
 
     /// F' without what these kinematics do not allow. Nothing taken away carries angular momentum.
-    static Mat2 allowed(const Mat2& F, const Mat2& F_rate) {
-        if constexpr (K == Kinematics::D2F3 && !imposes_area) {
-            return F_rate;
+    static Tensor allowed(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
+        if constexpr (!constrains) {
+            return rate;
         } else {
-            const Mat2 R = Polar(F).rotation();
+            const Tensor R = Polar(F).rotation();
             if constexpr (K == Kinematics::D2F3) {
-                return F_rate - share(F_rate, R) * R;
+                return rate - inertia.share(rate, R) * R;
             } else {
-                const Mat2 W = turned(R);
-                const Mat2 spin = share(F_rate, W) * W;
+                const Tensor W = R.turned();
+                const Tensor spin = inertia.share(rate, W) * W;
                 if constexpr (K == Kinematics::D2F0 || imposes_area)
                     return spin;
                 else
-                    return spin + share(F_rate, R) * R;
+                    return spin + inertia.share(rate, R) * R;
             }
         }
     }
 
     /// F after the step, put back on what these kinematics allow. `cap_fraction` = sum S / (pi R^2).
-    static Mat2 corrected(const Mat2& F, double cap_fraction) {
+    static Tensor corrected(const Tensor& F, double cap_fraction) {
         if constexpr (K == Kinematics::D2F0) {
             return Polar(F).rotation();
         } else if constexpr (imposes_area) {
@@ -70,21 +89,21 @@ struct Motion {
             const Polar polar(F);
             const double d = half_stretch_difference(F);
             const double wanted = std::sqrt(1.0 + cap_fraction + d * d) - 0.5 * polar.trace;
-            return F + std::clamp(wanted, -largest_dilation_step, largest_dilation_step) * polar.rotation();
+            const double step = std::min(std::max(wanted, -largest_dilation_step), largest_dilation_step);
+            return F + step * polar.rotation();
         } else {
             return F;
         }
     }
 
     /// F' after F was corrected: allowed at the new F, with the angular momentum it had before.
-    static Mat2 carried(const Mat2& before, const Mat2& corrected, const Mat2& F_rate) {
-        const Mat2 kept = allowed(corrected, F_rate), W = turned(corrected);
-        const double lost = F_rate.cwiseProduct(turned(before)).sum() - kept.cwiseProduct(W).sum();
-        return kept + (lost / W.squaredNorm()) * W;
+    static Tensor carried(const Tensor& before, const Tensor& corrected, const Tensor& rate,
+                          const Inertia& inertia) {
+        const Tensor kept = allowed(corrected, rate, inertia), W = corrected.turned();
+        const double lost =
+            contraction(inertia.times(rate), before.turned()) - contraction(inertia.times(kept), W);
+        return kept + (lost / contraction(inertia.times(W), W)) * W;
     }
 };
-
-/// "D2F0", "D2F1" or "D2F3"; throws InputError.
-Kinematics kinematics_from(std::string_view name);
 
 }  // namespace softgrain::sdem

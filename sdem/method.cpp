@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "common/errors.hpp"
+#include "sdem/laws/lens_potential.hpp"
 #include "sdem/solver.hpp"
 
 namespace softgrain::sdem {
@@ -22,8 +27,21 @@ using namespace std::string_literals;
 
 std::span<const KeySpec> keys() {
     static const std::array table{
+        KeySpec{"law",
+                KeyType::text,
+                "lens_potential"s,
+                "",
+                "contact law: lens_potential (conservative) or mollon2022 (as printed)",
+                any_number,
+                {"lens_potential", "mollon2022"}},
         KeySpec{
-            "law", KeyType::text, "mollon2022"s, "", "contact and stress law", any_number, {"mollon2022"}},
+            "grain_law",
+            KeyType::text,
+            "auto"s,
+            "",
+            "stress of a grain: linear as the paper's, neo_hookean; auto takes linear for mollon2022 only",
+            any_number,
+            {"auto", "linear", "neo_hookean"}},
         KeySpec{"kinematics",
                 KeyType::text,
                 "D2F3"s,
@@ -38,6 +56,23 @@ std::span<const KeySpec> keys() {
                 "damping of a grain's free oscillations: gamma of Mollon 2022, Eq. 62-64, is "
                 "shape_damping * sqrt(E/rho) / R in 1/s",
                 not_negative},
+        KeySpec{
+            "dilation_inertia", KeyType::number, Value(), "",
+            "inertia added to changes of a grain's area, in units of its own; by itself as much as makes a "
+            "nearly incompressible grain as slow in area as in shape",
+            not_negative},
+        KeySpec{"tangential_stiffness", KeyType::number, 0.5, "E",
+                "of the spring along a chord, with friction", positive},
+        KeySpec{"adhesion_range", KeyType::number, 0.0, "grain areas",
+                "loss of overlap over which cohesion builds up; 0: the same on closing and opening",
+                not_negative},
+        KeySpec{"geometry",
+                KeyType::text,
+                "batch"s,
+                "",
+                "how chords are found: batch (fast), scalar (its check), polygon (360 sides, as the paper)",
+                any_number,
+                {"batch", "scalar", "polygon"}},
         KeySpec{"skin", KeyType::number, 0.2, "mean radii", "reach of the neighbour list beyond the grains",
                 positive},
         KeySpec{"outline_points", KeyType::integer, std::int64_t{64}, "",
@@ -46,31 +81,89 @@ std::span<const KeySpec> keys() {
     return table;
 }
 
+/// Bulk modulus that stands for an incompressible grain where nothing else keeps its area, in mu: areas are
+/// kept to p / kappa.
+constexpr double stiffest_bulk = 300.0;
+/// kappa / mu up to which a grain's area needs no extra inertia: that of nu = 0.3.
+constexpr double ordinary_bulk = 13.0 / 6.0;
+
+GrainMaterial grain_material(const Material& material, const Settings& settings, ContactLaw law) {
+    const double nu = material.poisson_ratio, E = material.youngs_modulus;
+    if (!(nu >= 0.0 && nu <= 0.5))
+        throw InputError(fmt::format("material.poisson_ratio must be 0 to 0.5, got {}", nu));
+    GrainMaterial m;
+    m.E = E;
+    m.density = material.density;
+    m.mu = E / (2.0 * (1.0 + nu));
+    m.plane_E = E / (1.0 - nu * nu);
+    m.bulge = LensPotential::bulge(nu);
+    if (law == ContactLaw::mollon2022) {
+        m.kappa = nu < 0.5 ? E / (3.0 - 6.0 * nu) : 0.0;  // Eq. 65, 66
+        m.dilation_inertia = 0.0;
+    } else {
+        m.kappa = std::min(nu < 0.5 ? E / (3.0 - 6.0 * nu) : stiffest_bulk * m.mu, stiffest_bulk * m.mu);
+        m.dilation_inertia = std::max(0.0, m.kappa / m.mu / ordinary_bulk - 1.0);
+    }
+    if (settings.has("dilation_inertia")) m.dilation_inertia = settings.number("dilation_inertia");
+    m.shape_damping = settings.number("shape_damping") * std::sqrt(E / material.density);
+    // Mises stress in plane strain: the largest shear is yield / sqrt(3).
+    m.yield = material.yield_stress ? *material.yield_stress / std::numbers::sqrt3
+                                    : std::numeric_limits<double>::infinity();
+    return m;
+}
+
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
-    const Material& material = scenario.material;
     if (packing.size() == 0)
         throw InputError("sdem: the packing has no grain; give packing.path or packing.count");
-    if (material.friction > 0.0)
-        throw InputError(
-            fmt::format("sdem.law = \"mollon2022\" has no friction, got material.friction = {}; set "
-                        "material.friction = 0 or run another method",
-                        material.friction));
-    if (!(material.poisson_ratio >= 0.0 && material.poisson_ratio <= 0.5))
-        throw InputError(
-            fmt::format("material.poisson_ratio must be 0 to 0.5, got {}", material.poisson_ratio));
     const auto table = scenario.method_settings.find("sdem");
     const Settings settings = table == scenario.method_settings.end() ? Settings(keys()) : table->second;
 
     Options options;
-    options.kinematics = kinematics_from(settings.text("kinematics"));
-    options.incompressible = material.poisson_ratio == 0.5;
+    MotionLaw& motion = options.motion;
+    motion.kinematics = kinematics_from(settings.text("kinematics"));
+    motion.contact_law =
+        settings.text("law") == "mollon2022" ? ContactLaw::mollon2022 : ContactLaw::lens_potential;
+    const bool printed = motion.contact_law == ContactLaw::mollon2022;
+    motion.grain_law =
+        settings.text("grain_law") == "linear" || (printed && settings.text("grain_law") == "auto")
+            ? GrainLaw::linear
+            : GrainLaw::neo_hookean;
+    motion.shape_damping = settings.number("shape_damping") > 0.0;
+    std::vector<GrainMaterial> materials;
+    for (std::size_t c = 0; c < scenario.class_count(); ++c) {
+        const Material& material = scenario.material_of(c);
+        materials.push_back(grain_material(material, settings, motion.contact_law));
+        motion.dilation_inertia = motion.dilation_inertia || materials.back().dilation_inertia > 0.0;
+        motion.plastic = motion.plastic || material.yield_stress;
+        if (printed && material.poisson_ratio == 0.5) motion.imposes_area = true;
+    }
+    if (motion.imposes_area)
+        for (std::size_t c = 0; c < scenario.class_count(); ++c)
+            if (scenario.material_of(c).poisson_ratio != 0.5)
+                throw InputError(
+                    "sdem.law = \"mollon2022\" cannot mix grains of poisson_ratio 0.5 with others; use "
+                    "sdem.law = \"lens_potential\"");
+    if (motion.plastic && (printed || motion.grain_law != GrainLaw::neo_hookean))
+        throw InputError(
+            "material.yield_stress needs sdem.law = \"lens_potential\" and sdem.grain_law = \"neo_hookean\"");
+    if (motion.plastic && motion.kinematics != Kinematics::D2F3)
+        throw InputError(
+            "material.yield_stress needs sdem.kinematics = \"D2F3\": other grains keep their shape");
+
+    options.sliding.friction = scenario.material.friction;
+    options.sliding.wall_friction = scenario.material.wall_friction;
+    options.sliding.cohesion = scenario.material.cohesion;
+    options.sliding.stiffness = settings.number("tangential_stiffness");
+    options.sliding.adhesion_range = settings.number("adhesion_range");
+    options.contact_damping = settings.number("contact_damping");
     options.safety = settings.number("safety");
-    options.shape_damping = settings.number("shape_damping");
     options.skin = settings.number("skin");
     options.outline_points = static_cast<int>(settings.integer("outline_points"));
-    const Mollon2022 law =
-        Mollon2022::from(material.youngs_modulus, material.poisson_ratio, settings.number("contact_damping"));
-    return std::make_unique<SoftDiscSolver>(material, packing, law, options);
+    const std::string_view geometry = settings.text("geometry");
+    options.geometry = geometry == "batch"    ? Geometry::batch
+                       : geometry == "scalar" ? Geometry::scalar
+                                              : Geometry::polygon;
+    return std::make_unique<SoftDiscSolver>(std::move(materials), packing, options);
 }
 
 }  // namespace

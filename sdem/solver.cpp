@@ -9,285 +9,305 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "sdem/laws/lens_potential.hpp"
+#include "sdem/laws/plastic_flow.hpp"
+#include "sdem/space_order.hpp"
+#include "sdem/wall_contacts.hpp"
 
 namespace softgrain::sdem {
 namespace {
 
 constexpr std::size_t threads_pay_off = 400;  // grains
-constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
-constexpr double smallest_det = 0.05;
-
-double contraction(const Mat2& a, const Mat2& b) {
-    return a.cwiseProduct(b).sum();
-}
-
-/// sum S / (pi R^2). Once caps cover more than the whole outline they overlap: the sum counts areas twice,
-/// grows faster than the area it is to be weighed against, and Eq. 41 and 68 run away. Scaled back by (pi/sum
-/// psi)^3, as caps go with psi^3, each outline is counted once.
-double cap_fraction(const GrainForces& sum, double reference_area) {
-    const double covered = std::max(1.0, sum.covered);
-    return sum.caps / (reference_area * covered * covered * covered);
-}
+constexpr std::size_t pairs_per_chunk = 128;
+constexpr int steps_per_time_step_check = 16;
 
 }  // namespace
 
-SoftDiscSolver::SoftDiscSolver(const Material& material, const Packing& packing, const Mollon2022& law,
+SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packing& packing,
                                const Options& options)
-    : options_(options), density_(material.density), law_(law), box_(packing.box) {
-    for (std::size_t g = 0; g < packing.size(); ++g) {
-        const double R = packing.radius[g];
-        const double area = std::numbers::pi * R * R;
-        grains_.radius.push_back(R);
-        grains_.reference_area.push_back(area);
-        grains_.mass.push_back(density_ * area);
-        grains_.inertia.push_back(0.25 * density_ * area * R * R);
-        grains_.position.push_back(packing.center[g]);
-        grains_.velocity.emplace_back(Vec2::Zero());
-        grains_.F.push_back(Mat2::Identity());
-        grains_.F_rate.push_back(Mat2::Zero());
+    : options_(options) {
+    motion_.box = packing.box;
+    grains_.material = std::move(material);
+    place(packing);
+    const std::size_t n = size();
+    if (has_potential()) {
+        pressures_.pressure.assign(n, 0.0);
+        pressures_.push.assign(n, 0.0);
     }
-    shape_.resize(size());
-    reach_.resize(size());
-    forces_.resize(size());
-    wall_contact_.resize(4 * size());
-    wall_mask_.assign(size(), 0);
-    stored_.assign(size(), 0.0);
-    damped_.assign(size(), 0.0);
-    before_ = grains_.position;
-    update_shapes(before_);
-    rebuild_neighbors();
-    evaluate_forces();
-    for (std::size_t g = 0; g < size(); ++g)
-        caps_before_.push_back(cap_fraction(forces_[g], grains_.reference_area[g]));
+    if (options_.motion.plastic) {
+        memory_.plastic_xx.assign(n, 1.0);
+        memory_.plastic_xy.assign(n, 0.0);
+        memory_.plastic_yy.assign(n, 1.0);
+    }
+    rebuild_contacts();
+    if (options_.sliding.needs_history()) {
+        contacts_.pair_history.resize(contacts_.pairs().size());
+        contacts_.wall_history.resize(contacts_.wall_pairs().size());
+    }
+    update_contacts(0.0);
+    if (options_.motion.imposes_area)
+        for (std::size_t g = 0; g < n; ++g) {
+            const GrainSums sums = sum_contacts(forces(), g);
+            memory_.caps_before.push_back(
+                Mollon2022::cap_fraction(sums.caps, sums.covered, grains_.grain[g].reference_area()));
+        }
 }
 
-/// Calls the function with the Motion chosen by the options.
-template <class Function>
-decltype(auto) SoftDiscSolver::with_motion(Function&& function) const {
-    const bool keep = options_.incompressible;
-    switch (options_.kinematics) {
-        case Kinematics::D2F0:
-            return function(Motion<Kinematics::D2F0, false>{});
-        case Kinematics::D2F1:
-            return keep ? function(Motion<Kinematics::D2F1, true>{})
-                        : function(Motion<Kinematics::D2F1, false>{});
-        default:
-            return keep ? function(Motion<Kinematics::D2F3, true>{})
-                        : function(Motion<Kinematics::D2F3, false>{});
+/// Grains in the order of space.
+void SoftDiscSolver::place(const Packing& packing) {
+    grains_.original = space_order(packing.center, 2.0 * packing.mean_radius());
+    for (const int original : grains_.original) {
+        const auto p = static_cast<std::size_t>(original);
+        const std::size_t grain_class = packing.class_of(p);
+        const Vec2 half_axes = packing.half_axes(p);
+        Grain g{};
+        g.x = packing.center[p].x();
+        g.y = packing.center[p].y();
+        g.F = {1.0, 0.0, 0.0, 1.0};
+        if (!packing.angle.empty()) {
+            const double c = std::cos(packing.angle[p]), s = std::sin(packing.angle[p]);
+            g.F = {c, -s, s, c};
+        }
+        g.a = half_axes.x();
+        g.b = half_axes.y();
+        g.radius = packing.radius[p];
+        g.mass = grains_.material[grain_class].density * g.reference_area();
+        grains_.grain.push_back(g);
+        grains_.center.push_back(packing.center[p]);
+        grains_.reach.push_back(reach_of(g));
+        if (grains_.material.size() > 1)
+            grains_.grain_class.push_back(static_cast<std::uint8_t>(grain_class));
     }
+}
+
+ForceSource SoftDiscSolver::forces() const {
+    return {contacts_, pressures_.push, options_.sliding.slides()};
+}
+
+MotionInput SoftDiscSolver::motion_input() const {
+    return {forces(), pressures_.pressure, options_.motion, motion_};
+}
+
+/// E, its mean over the grains' areas.
+double SoftDiscSolver::stress_scale() const {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t g = 0; g < size(); ++g) {
+        sum += grains_.grain[g].reference_area() * grains_.material_of(g).E;
+        area += grains_.grain[g].reference_area();
+    }
+    return sum / area;
 }
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
-    std::array<double, 4> mean_velocity;
-    for (std::size_t w = 0; w < 4; ++w) mean_velocity[w] = 0.5 * (wall_velocity_[w] + walls.velocity[w]);
-    add_wall_work(ledger_, mean_velocity, dt);
-    wall_velocity_ = walls.velocity;
+    add_boundary_work(ledger_, motion_, walls, dt);
+    if (walls.box.periodic) follow_flow(walls);
+    motion_ = walls;
 
-    with_motion([&](auto motion) { move<decltype(motion)>(dt); });
+    const std::vector<Vec2> before = grains_.center;
+    std::vector<StepWork> work(blocks());
+    std::size_t bad = size();
+    const MotionInput input = motion_input();
+#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+    for (std::size_t block = 0; block < blocks(); ++block) {
+        const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
+        work[block] = move_grains(input, grains_, memory_, dt, begin, end, bad);
+    }
+    for (const StepWork& w : work) {
+        if (!has_potential()) ledger_.elastic += w.stored;
+        ledger_.damping += w.damped;
+        ledger_.plastic += w.plastic;
+    }
     time_ += dt;
     last_step_ = dt;
-    box_ = walls.after(dt);
-
-    update_shapes(before_);
-    update_neighbors();
-    evaluate_forces();
+    ++steps_;
+    motion_.box = walls.after(dt);
+    if (bad < size()) throw_bad_grain(bad, before);
+    if (contacts_.stale(grains_, cell().box)) rebuild_contacts();
+    update_contacts(dt);
 }
 
-template <class MotionPolicy>
-SoftDiscSolver::Kick SoftDiscSolver::kick(std::size_t g, double dt) const {
-    const Grains& s = grains_;
-    const GrainForces& sum = forces_[g];
-    Kick k;
-    k.velocity = s.velocity[g] + (dt / s.mass[g]) * sum.force;  // Eq. 58
-    const Mat2 free_rate = s.F_rate[g] + (dt / s.inertia[g]) * sum.moment;
-    k.F_rate = MotionPolicy::allowed(s.F[g], free_rate);
-    // Work at the mean of the velocities before and after equals the change of kinetic energy to rounding.
-    const Vec2 v = 0.5 * (s.velocity[g] + k.velocity);
-    const Mat2 L = 0.5 * (s.F_rate[g] + k.F_rate);
-    k.damped = -dt * (sum.damping_force.dot(v) + contraction(sum.damping_moment, L));
-    k.stored = -dt * (sum.force.dot(v) + contraction(sum.moment, L)) - k.damped;
-    if constexpr (!std::is_same_v<MotionPolicy, Motion<Kinematics::D2F3, false>>)
-        k.stored -= s.inertia[g] * contraction(k.F_rate - free_rate, L);  // the constraint's reaction
-    return k;
+/// A periodic cell that changes its velocity takes the grains along: velocities are kept against its flow.
+void SoftDiscSolver::follow_flow(const WallMotion& walls) {
+    if (walls.velocity == motion_.velocity && walls.tilt_rate == motion_.tilt_rate) return;
+    WallMotion old = motion_;
+    old.box = walls.box;
+    for (Grain& g : grains_.grain) {
+        const Vec2 change = walls.affine_velocity(Vec2{g.x, g.y}) - old.affine_velocity(Vec2{g.x, g.y});
+        g.vx += change.x();
+        g.vy += change.y();
+    }
 }
 
-template <class MotionPolicy>
-void SoftDiscSolver::move(double dt) {
-    Grains& s = grains_;
-#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
-    for (std::size_t g = 0; g < size(); ++g) {
-        const Kick k = kick<MotionPolicy>(g, dt);
-        stored_[g] = k.stored;
-        damped_[g] = k.damped;
-        s.velocity[g] = k.velocity;
-        s.F_rate[g] = k.F_rate;
-        before_[g] = s.position[g];
-        s.position[g] += dt * k.velocity;  // Eq. 59
-        s.F[g] += dt * k.F_rate;
-        if constexpr (MotionPolicy::corrects) {
-            const Mat2 before = s.F[g];
-            // Caps at the new positions, extrapolated: the last ones would lag a step and feed energy in.
-            const double caps = cap_fraction(forces_[g], s.reference_area[g]);
-            const double expected = std::max(0.0, 2.0 * caps - caps_before_[g]);
-            caps_before_[g] = caps;
-            s.F[g] = MotionPolicy::corrected(before, expected);
-            s.F_rate[g] = MotionPolicy::carried(before, s.F[g], k.F_rate);
-            stored_[g] -= 0.5 * s.inertia[g] * (s.F_rate[g].squaredNorm() - k.F_rate.squaredNorm());
+/// Candidates afresh. In a periodic cell grains are put back into it, on the least tilted lattice.
+void SoftDiscSolver::rebuild_contacts() {
+    if (motion_.box.periodic) {
+        flips_ = motion_.box.flips();
+        const WallMotion lattice = cell();
+        for (std::size_t g = 0; g < size(); ++g) {
+            const Image image = lattice.box.image_of(grains_.center[g]);
+            if (image == Image{}) continue;
+            const Vec2 offset = lattice.box.image(image), velocity = lattice.image_velocity(image);
+            Grain& grain = grains_.grain[g];
+            grain.x -= offset.x();
+            grain.y -= offset.y();
+            grain.vx -= velocity.x();
+            grain.vy -= velocity.y();
+            grains_.center[g] = Vec2{grain.x, grain.y};
         }
     }
-    for (std::size_t g = 0; g < size(); ++g) {
-        ledger_.elastic += stored_[g];
-        ledger_.damping += damped_[g];
-    }
-}
-
-void SoftDiscSolver::update_shapes(std::span<const Vec2> before) {
-    const Grains& s = grains_;
-    std::size_t bad = nobody;
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
-    for (std::size_t g = 0; g < size(); ++g) {
-        shape_[g] = make_ellipse(s.position[g], s.F[g], s.radius[g]);
-        reach_[g] = shape_[g].bounding;
-        const double longest = 0.5 * s.radius[g];
-        const bool near = (s.position[g] - before[g]).squaredNorm() <= longest * longest;
-        const bool sound = shape_[g].det > smallest_det * s.radius[g] * s.radius[g] &&
-                           reach_[g] < std::numeric_limits<double>::infinity();
-        if (!near || !sound) bad = std::min(bad, g);
-    }
-    if (bad == nobody) return;
-    const int g = static_cast<int>(bad);
-    const Vec2 step = s.position[bad] - before[bad];
-    if (!(step.norm() <= 0.5 * s.radius[bad]))
-        throw DivergedError(g, "position", time_,
-                            fmt::format("moved {:.3g} radii in one step; use a smaller sdem.safety",
-                                        step.norm() / s.radius[bad]));
-    throw DivergedError(g, "det F", time_,
-                        fmt::format("{:.3g}: the grain is crushed or inside out", s.F[bad].determinant()));
-}
-
-void SoftDiscSolver::update_neighbors() {
-    if (neighbors_.stale(grains_.position, reach_)) rebuild_neighbors();
-}
-
-/// Warm starts move with their pairs.
-void SoftDiscSolver::rebuild_neighbors() {
-    const std::vector<Pair> old_pairs(neighbors_.pairs().begin(), neighbors_.pairs().end());
-    const std::vector<WarmStart> old_warm = std::move(warm_);
     double mean_radius = 0.0;
-    for (double R : grains_.radius) mean_radius += R / static_cast<double>(size());
-    neighbors_.build(grains_.position, reach_, options_.skin * mean_radius);
-    pairs_of_.build(neighbors_.pairs(), size());
-    warm_.assign(neighbors_.pairs().size(), WarmStart{});
-    std::size_t o = 0;
-    for (std::size_t k = 0; k < warm_.size(); ++k) {
-        const Pair& pair = neighbors_.pairs()[k];
-        while (o < old_pairs.size() && old_pairs[o] < pair) ++o;
-        if (o < old_pairs.size() && old_pairs[o] == pair) warm_[k] = old_warm[o];
-    }
-    pair_contact_.resize(warm_.size());
+    for (const Grain& g : grains_.grain) mean_radius += g.radius / static_cast<double>(size());
+    contacts_.build(grains_.center, grains_.reach, cell().box, options_.skin * mean_radius);
 }
 
-void SoftDiscSolver::evaluate_forces() {
-    evaluate_pairs();
-    std::size_t bad = nobody;
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
-    for (std::size_t g = 0; g < size(); ++g) {
-        GrainForces sum{Vec2::Zero(), Mat2::Zero(), Vec2::Zero(), Mat2::Zero(), 0.0, 0.0};
-        if (!add_walls(g, sum)) bad = std::min(bad, g);
-        add_pairs(g, sum);
-        add_inner_stress(g, sum);
-        forces_[g] = sum;
-    }
-    if (bad != nobody)
-        throw DivergedError(static_cast<int>(bad), "wall contact", time_,
-                            "the grain went through a wall, or its cap is too deep for Eq. 57");
+void SoftDiscSolver::update_contacts(double dt) {
+    guess_before_ = contacts_.guess;
+    evaluate_pairs_and_walls();
+    if (has_potential()) find_all_pressures();
+    if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
+    if (motion_.box.periodic) sum_cell_stress();
+    if (steps_ % steps_per_time_step_check == 0 || time_step_ == 0.0) time_step_ = time_step_limit();
 }
 
-/// Every pair of the neighbour list on its own, in any order.
-void SoftDiscSolver::evaluate_pairs() {
-    const Grains& s = grains_;
-    warm_before_ = warm_;
-    const std::span<const Pair> pairs = neighbors_.pairs();
-    std::size_t bad = nobody;
+void SoftDiscSolver::evaluate_pairs_and_walls() {
+    const WallMotion lattice = cell();
+    const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
+    const PairInput in{
+        grains_,           contacts_.pairs(),        contacts_.images(), lattice, options_.motion.contact_law,
+        options_.geometry, options_.contact_damping, with_rates};
+    const PairOutput out{contacts_.pair_contact, contacts_.guess, contacts_.pair_history.slip_rate};
+    const std::size_t pairs = contacts_.pairs().size();
+    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
+    std::vector<BadPair> bad(chunks);
+#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+        const std::size_t begin = chunk * pairs_per_chunk;
+        bad[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
+    }
+    for (const BadPair& b : bad)
+        if (b.pair < pairs) throw_bad_pair(b);
+
+    const std::size_t bad_wall =
+        evaluate_walls({grains_, lattice, options_.motion.contact_law, options_.contact_damping}, contacts_);
+    if (bad_wall < contacts_.wall_pairs().size())
+        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[bad_wall].grain)),
+                            "wall contact", time_,
+                            "the grain went through a wall, or its cap is too deep for Eq. 57");
+}
+
+void SoftDiscSolver::find_all_pressures() {
+    std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto i = static_cast<std::size_t>(pairs[k].i), j = static_cast<std::size_t>(pairs[k].j);
-        const double reach = reach_[i] + reach_[j];
-        if ((s.position[j] - s.position[i]).squaredNorm() >= reach * reach) {
-            pair_contact_[k].overlap = Overlap::none;
-            warm_[k] = WarmStart{};
-            continue;
-        }
-        pair_contact_[k] = pair_contact(moving(i), moving(j), law_, warm_[k]);
-        const PairContact& c = pair_contact_[k];
-        const bool sound = c.overlap == Overlap::none || (c.touching() && c.force.stiffness > 0.0);
-        if (!sound) bad = std::min(bad, k);
+    for (std::size_t block = 0; block < blocks(); ++block) {
+        const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
+        bad = std::min(bad,
+                       find_pressures(grains_, contacts_, options_.motion.grain_law, pressures_, begin, end));
     }
-    if (bad != nobody) throw_bad_contact(bad);
+    if (bad < size())
+        throw DivergedError(packing_index(bad), "area", time_,
+                            "its contacts have squeezed the grain to nothing");
 }
 
-/// Contacts with walls; false if one of them is beyond the law.
-bool SoftDiscSolver::add_walls(std::size_t g, GrainForces& sum) {
-    bool sound = true;
-    wall_mask_[g] = 0;
-    for (int w = 0; w < 4; ++w) {
-        const double distance = box_.distance(w, grains_.position[g]);
-        if (distance >= reach_[g]) continue;
-        const WallChord chord = wall_chord(shape_[g], wall_normal(w), distance);
-        if (!chord.touching) continue;
-        const auto wall = static_cast<std::size_t>(w);
-        WallContact& c = wall_contact_[4 * g + wall];
-        c = wall_contact(moving(g), chord, wall_normal(w), WallMotion{box_, wall_velocity_}.velocity_of(w),
-                         law_);
-        wall_mask_[g] = static_cast<std::uint8_t>(wall_mask_[g] | (1U << wall));
-        add_contact(sum, c.force, wall_normal(w), c.grain);
-        sound = sound && !chord.escaped && c.force.stiffness > 0.0;
+void SoftDiscSolver::slide(double dt) {
+    const ForceSource source = forces();
+    const std::size_t pairs = contacts_.pairs().size();
+    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
+    std::vector<SlidingWork> work(chunks);
+#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+        const std::size_t begin = chunk * pairs_per_chunk;
+        work[chunk] = slide_pairs(options_.sliding, source, grains_, contacts_, dt, begin,
+                                  std::min(pairs, begin + pairs_per_chunk));
     }
-    return sound;
-}
-
-/// Contacts with other grains, in the order of the pair list.
-void SoftDiscSolver::add_pairs(std::size_t g, GrainForces& sum) const {
-    for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
-        const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
-        if (c.overlap == Overlap::none) continue;
-        if (entry.second)
-            add_contact(sum, c.force, c.normal, c.j);
-        else
-            add_contact(sum, c.force, -c.normal, c.i);
-    }
-}
-
-/// - A0 P, and shape damping (Eq. 62-64) without the spin, which those leave alone.
-void SoftDiscSolver::add_inner_stress(std::size_t g, GrainForces& sum) const {
-    const Mat2& F = grains_.F[g];
-    const double R = grains_.radius[g], A0 = grains_.reference_area[g];
-    const double eps_v = shape_[g].det / (R * R) - cap_fraction(sum, A0) - 1.0;  // Eq. 41
-    const double rate = options_.shape_damping * std::sqrt(law_.E / density_) / R;
-    const Mat2 damping = (-rate * grains_.inertia[g]) * without_spin(F, grains_.F_rate[g]);
-    sum.moment += damping - A0 * law_.piola(F, Polar(F), eps_v);  // Eq. 42, 43
-    sum.damping_moment += damping;
+    SlidingWork sum;
+    for (const SlidingWork& w : work) sum.add(w);
+    sum.add(slide_walls(options_.sliding, source, grains_, contacts_, dt));
+    ledger_.friction += sum.friction;
+    ledger_.adhesion += sum.adhesion;
+    if (!has_potential()) ledger_.elastic -= sum.friction + sum.adhesion;
 }
 
 void SoftDiscSolver::sum_wall_forces() {
     wall_force_.fill(Vec2::Zero());
     wall_damping_force_.fill(Vec2::Zero());
-    for (std::size_t g = 0; g < size(); ++g) {
-        if (wall_mask_[g] == 0) continue;
-        for (std::size_t w = 0; w < 4; ++w) {
-            if ((wall_mask_[g] >> w & 1U) == 0) continue;
-            const Vec2 outward = -wall_normal(static_cast<int>(w));
-            wall_force_[w] += wall_contact_[4 * g + w].force.total * outward;
-            wall_damping_force_[w] += wall_contact_[4 * g + w].force.damping * outward;
-        }
+    const ForceSource source = forces();
+    for (std::size_t k = 0; k < contacts_.wall_pairs().size(); ++k) {
+        const Contact& c = contacts_.wall_contact[k];
+        if (!c.touching()) continue;
+        const auto w = static_cast<std::size_t>(contacts_.wall_pairs()[k].wall);
+        const double q = source.elastic_at_wall(c, static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+        const double dashpot = damping_without_pull(q, c.q_damping);
+        const Vec2 chord{c.chord_x, c.chord_y};
+        wall_force_[w] += (q + dashpot) * chord;
+        wall_damping_force_[w] += dashpot * chord;
+        if (source.sliding) wall_force_[w] += contacts_.wall_history.tangential[k] * perpendicular(chord);
     }
 }
 
-void SoftDiscSolver::throw_bad_contact(std::size_t k) const {
-    const Pair& pair = neighbors_.pairs()[k];
+/// Love-Weber stress of the cell, compression positive: (1/A) sum f on j (x) branch from i to j.
+void SoftDiscSolver::sum_cell_stress() {
+    cell_stress_ = CellStress{};
+    const ForceSource source = forces();
+    for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
+        const Contact& c = contacts_.pair_contact[k];
+        if (!c.touching()) continue;
+        const auto i = static_cast<std::size_t>(contacts_.pairs()[k].i),
+                   j = static_cast<std::size_t>(contacts_.pairs()[k].j);
+        const double q = source.elastic(c, i, j), dashpot = damping_without_pull(q, c.q_damping);
+        const Vec2 chord{c.chord_x, c.chord_y}, branch{c.arm_ix - c.arm_jx, c.arm_iy - c.arm_jy};
+        Vec2 force = (q + dashpot) * chord;
+        if (source.sliding) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
+        cell_stress_.total += force * branch.transpose();
+        cell_stress_.damping += dashpot * chord * branch.transpose();
+    }
+    cell_stress_.total /= motion_.box.area();
+    cell_stress_.damping /= motion_.box.area();
+}
+
+/// Work of walls or cell over dt, by the mean of their motion before and after; the share that dashpots at
+/// the boundary take goes to `damping`. Without a potential the rest counts as stored.
+void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& before,
+                                       const WallMotion& after, double dt) const {
+    double work = 0.0, damped = 0.0;
+    if (after.box.periodic) {
+        const Mat2 L = 0.5 * (before.velocity_gradient() + after.velocity_gradient());
+        Mat2 flux = Mat2::Zero();  // of the momentum that grains carry against the flow
+        for (const Grain& g : grains_.grain) {
+            const Vec2 u = Vec2{g.vx, g.vy} - before.affine_velocity(Vec2{g.x, g.y});
+            flux += g.mass * u * u.transpose();
+        }
+        const double area = before.box.area();
+        work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
+        damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
+    } else {
+        for (std::size_t w = 0; w < 4; ++w) {
+            const int axis = wall_axis(static_cast<int>(w));
+            const double moved = 0.5 * (before.velocity[w] + after.velocity[w]) * dt;
+            work -= wall_force_[w][axis] * moved;
+            damped -= wall_damping_force_[w][axis] * moved;
+        }
+    }
+    ledger.external_work += work;
+    ledger.damping += damped;
+    if (!has_potential()) ledger.elastic += work - damped;
+}
+
+void SoftDiscSolver::throw_bad_grain(std::size_t g, const std::vector<Vec2>& before) const {
+    const Grain& grain = grains_.grain[g];
+    const double step = (grains_.center[g] - before[g]).norm();
+    if (!(step <= 0.5 * grain.radius))
+        throw DivergedError(
+            packing_index(g), "position", time_,
+            fmt::format("moved {:.3g} radii in one step; use a smaller sdem.safety", step / grain.radius));
+    throw DivergedError(packing_index(g), "det F", time_,
+                        fmt::format("{:.3g}: the grain is crushed or inside out", grain.F.det()));
+}
+
+void SoftDiscSolver::throw_bad_pair(const BadPair& bad) const {
+    const Pair& pair = contacts_.pairs()[bad.pair];
     const auto why = [&]() -> const char* {
-        switch (pair_contact_[k].overlap) {
+        switch (bad.overlap) {
             case Overlap::contained:
                 return "one grain lies inside the other";
             case Overlap::coincident:
@@ -296,40 +316,55 @@ void SoftDiscSolver::throw_bad_contact(std::size_t k) const {
                 return "the caps are too deep for Eq. 57";
         }
     };
-    throw DivergedError(pair.i, "contact", time_, fmt::format("with grain {}: {}", pair.j, why()));
+    int i = packing_index(static_cast<std::size_t>(pair.i)),
+        j = packing_index(static_cast<std::size_t>(pair.j));
+    if (i > j) std::swap(i, j);
+    throw DivergedError(i, "contact", time_, fmt::format("with grain {}: {}", j, why()));
 }
 
-/// Force times wall displacement; the walls' share of damping goes to `damping`, the rest is stored.
-void SoftDiscSolver::add_wall_work(EnergyLedger& ledger, const std::array<double, 4>& wall_velocity,
-                                   double dt) const {
-    for (std::size_t w = 0; w < 4; ++w) {
-        const int axis = wall_axis(static_cast<int>(w));
-        const double work = -wall_force_[w][axis] * wall_velocity[w] * dt;
-        const double damped = -wall_damping_force_[w][axis] * wall_velocity[w] * dt;
-        ledger.external_work += work;
-        ledger.damping += damped;
-        ledger.elastic += work - damped;
+double SoftDiscSolver::potential_energy() const {
+    double sum = 0.0;
+    for (std::size_t g = 0; g < size(); ++g) {
+        const Grain& grain = grains_.grain[g];
+        const GrainMaterial& m = grains_.material_of(g);
+        const double area = grain.reference_area();
+        const double T = given_way(contacts_, grain, g);
+        const double ratio = grain.F.det() - LensPotential::inflation(T, m.bulge).G;
+        double density = 0.0;
+        if (options_.motion.grain_law == GrainLaw::linear) {
+            const double d = half_stretch_difference(grain.F);
+            density = 2.0 * m.mu * d * d + 0.5 * m.kappa * (ratio - 1.0) * (ratio - 1.0);
+        } else {
+            PlasticState strain{1.0, 0.0, 1.0};
+            if (options_.motion.plastic)
+                strain = {memory_.plastic_xx[g], memory_.plastic_xy[g], memory_.plastic_yy[g]};
+            const PlasticState b = elastic_strain(grain.F, strain);
+            density = 0.5 * m.mu * (b.xx + b.yy - 2.0) + LensPotential::dilation_energy(ratio, m.mu, m.kappa);
+        }
+        each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
+            density += LensPotential::contact_energy(m.plane_E, side.share(c) * (c.cap_i + c.cap_j) / area);
+        });
+        sum += area * density;
     }
+    return sum + stored_energy(options_.sliding, grains_, contacts_);
 }
 
 /// The ledger at the present positions: half a step further than the velocities kept.
-template <class MotionPolicy>
-EnergyLedger SoftDiscSolver::energy_now() const {
+EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
     const double half = 0.5 * last_step_;
-    add_wall_work(ledger, wall_velocity_, half);
-    for (std::size_t g = 0; g < size(); ++g) {
-        const Kick k = kick<MotionPolicy>(g, half);
-        ledger.elastic += k.stored;
-        ledger.damping += k.damped;
-        ledger.kinetic +=
-            0.5 * (grains_.mass[g] * k.velocity.squaredNorm() + grains_.inertia[g] * k.F_rate.squaredNorm());
+    add_boundary_work(ledger, motion_, motion_, half);
+    const MotionInput input = motion_input();
+    for (std::size_t block = 0; block < blocks(); ++block) {
+        const std::size_t begin = block * grains_per_block;
+        const StepWork work =
+            kick_work(input, grains_, memory_, half, begin, std::min(size(), begin + grains_per_block));
+        ledger.damping += work.damped;
+        ledger.kinetic += work.kinetic;
+        if (!has_potential()) ledger.elastic += work.stored;
     }
+    if (has_potential()) ledger.elastic = potential_energy();
     return ledger;
-}
-
-EnergyLedger SoftDiscSolver::energy() const {
-    return with_motion([&](auto motion) { return energy_now<decltype(motion)>(); });
 }
 
 }  // namespace softgrain::sdem

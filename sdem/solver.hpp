@@ -1,126 +1,114 @@
 #pragma once
 // SDEM: discs with six degrees of freedom, the centre c and the deformation gradient F. See README.md.
 #include <array>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "common/gather.hpp"
-#include "common/neighbors.hpp"
 #include "common/solver.hpp"
-#include "sdem/contact_forces.hpp"
+#include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
-#include "sdem/geometry/ellipse.hpp"
-#include "sdem/kinematics.hpp"
-#include "sdem/laws/mollon2022.hpp"
+#include "sdem/grain_motion.hpp"
+#include "sdem/sliding.hpp"
 
 namespace softgrain::sdem {
 
 /// What a run of this method can choose.
 struct Options {
-    Kinematics kinematics = Kinematics::D2F3;
-    bool incompressible = false;
-    double safety = 0.8;         ///< share of the stability limit
-    double shape_damping = 0.5;  ///< in sqrt(E/rho)/R
-    double skin = 0.2;           ///< of the neighbour list, in mean radii
+    MotionLaw motion;
+    Geometry geometry = Geometry::batch;
+    SlidingLaw sliding;
+    double contact_damping = 1.0;  ///< gamma of Eq. 61
+    double safety = 0.8;           ///< share of the stability limit
+    double skin = 0.2;             ///< of the neighbour list, in mean radii
     int outline_points = 64;
 };
 
-/// State of the grains, structure of arrays [n].
-struct Grains {
-    std::vector<double> radius, mass, inertia;  ///< [m], [kg], M = rho pi R^4/4 [kg m^2]
-    std::vector<double> reference_area;         ///< A0 = pi R^2 [m^2]
-    std::vector<Vec2> position, velocity;       ///< c [m], c' [m/s]
-    std::vector<Mat2> F, F_rate;                ///< F [-], F' [1/s]
-};
-
-class SoftDiscSolver final : public Solver {
+class SoftDiscSolver : public Solver {
   public:
-    SoftDiscSolver(const Material& material, const Packing& packing, const Mollon2022& law,
-                   const Options& options);
+    SoftDiscSolver(std::vector<GrainMaterial> material, const Packing& packing, const Options& options);
 
-    double stable_time_step() const override;
+    double stable_time_step() const override { return time_step_; }
     void advance(const WallMotion& walls, double dt) override;
     GrainView view(Need need) override;
     const std::array<Vec2, 4>& wall_force() const override { return wall_force_; }
-    double stress_scale() const override { return law_.E; }
+    Mat2 cell_stress() const override { return cell_stress_.total; }
+    double stress_scale() const override;
     std::optional<std::string> outside_validity() const override;
     void check_finite() const override;
     void save(Checkpoint& to) const override;
     void load(const Checkpoint& from) override;
 
+  protected:
+    /// Contacts and forces at the present positions; `dt` is the step that led there, 0 if none did.
+    void update_contacts(double dt);
+    /// The cell or the walls at their present place, on the lattice that the contact list was made for.
+    WallMotion cell() const { return motion_.flipped(flips_); }
+    ForceSource forces() const;
+    MotionInput motion_input() const;
+    bool has_potential() const { return options_.motion.contact_law == ContactLaw::lens_potential; }
+    std::size_t size() const { return grains_.size(); }
+    std::size_t blocks() const { return (size() + grains_per_block - 1) / grains_per_block; }
+    int packing_index(std::size_t g) const { return grains_.original[g]; }
+
+    Options options_;
+    Grains grains_;
+    GrainMemory memory_;
+    ContactList contacts_;
+    Pressures pressures_;
+    WallMotion motion_;  ///< the box now, and how it last moved
+    double time_ = 0.0;
+    EnergyLedger
+        ledger_;  ///< up to half a step before now; kinetic not used, elastic only without a potential
+
   private:
-    /// New velocity and rate of one grain after `dt` under the stored forces, and the work done on the way.
-    struct Kick {
-        Vec2 velocity;
-        Mat2 F_rate;
-        double stored, damped;  ///< [J]
-    };
-    template <class MotionPolicy>
-    Kick kick(std::size_t g, double dt) const;
-    template <class MotionPolicy>
-    void move(double dt);
-    template <class MotionPolicy>
-    EnergyLedger energy_now() const;
-    EnergyLedger energy() const;
-    template <class Function>
-    decltype(auto) with_motion(Function&& function) const;
-
-    void update_shapes(std::span<const Vec2> before);
-    void update_neighbors();
-    void rebuild_neighbors();
-    void evaluate_forces();
-    void evaluate_pairs();
-    bool add_walls(std::size_t g, GrainForces& sum);
-    void add_pairs(std::size_t g, GrainForces& sum) const;
-    void add_inner_stress(std::size_t g, GrainForces& sum) const;
+    void place(const Packing& packing);
+    void rebuild_contacts();
+    void evaluate_pairs_and_walls();
+    void find_all_pressures();
+    void slide(double dt);
     void sum_wall_forces();
-    void throw_bad_contact(std::size_t pair) const;
-    void add_wall_work(EnergyLedger& ledger, const std::array<double, 4>& wall_velocity, double dt) const;
+    void sum_cell_stress();
+    void follow_flow(const WallMotion& walls);
+    void add_boundary_work(EnergyLedger& ledger, const WallMotion& before, const WallMotion& after,
+                           double dt) const;
+    double time_step_limit() const;
+    double grain_time_step(std::size_t g) const;
+    void throw_bad_grain(std::size_t g, const std::vector<Vec2>& before) const;
+    void throw_bad_pair(const BadPair& bad) const;
 
+    EnergyLedger energy() const;
+    double potential_energy() const;
+    void check_energy() const;
+
+    void fill_state();
     void fill_areas();
     void fill_contacts();
     void fill_stress();
     void fill_outlines();
     void fill_fields();
     std::vector<Cut> cuts_of(std::size_t g) const;
+    struct CellStress {
+        Mat2 total = Mat2::Zero(), damping = Mat2::Zero();
+    };
 
-    Moving moving(std::size_t g) const {
-        return {shape_[g], grains_.velocity[g], grains_.F_rate[g], grains_.mass[g]};
-    }
-    std::size_t size() const { return grains_.radius.size(); }
-
-    Options options_;
-    double density_;
-    Mollon2022 law_;
-    Grains grains_;
-    double time_ = 0.0;
+    int flips_ = 0;
     double last_step_ = 0.0;  ///< [s]; 0 before the first step
-    Box box_;
-    std::array<double, 4> wall_velocity_{};
-
-    // Found again from the state above by update_shapes() and evaluate_forces().
-    std::vector<Ellipse> shape_;
-    std::vector<double> reach_;
-    NeighborList neighbors_;
-    PairsOfGrain pairs_of_;
-    std::vector<WarmStart> warm_, warm_before_;  ///< [pairs] after and before the last evaluation
-    std::vector<PairContact> pair_contact_;      ///< [pairs]
-    std::vector<WallContact> wall_contact_;      ///< [4 n], valid where wall_mask_ tells
-    std::vector<std::uint8_t> wall_mask_;        ///< [n], bit w set if the grain touches wall w
-    std::vector<GrainForces> forces_;            ///< [n]
+    double time_step_ = 0.0;  ///< [s] found every few steps
+    long long steps_ = 0;
+    std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
     std::array<Vec2, 4> wall_force_{}, wall_damping_force_{};
-
-    EnergyLedger ledger_;                  ///< up to half a step before now; kinetic not used
-    std::vector<double> stored_, damped_;  ///< [n] work of the last step
-    std::vector<double> caps_before_;      ///< [n] cap fraction one evaluation ago
-    std::vector<Vec2> before_;             ///< [n] positions before the last step
+    CellStress cell_stress_;
 
     struct ViewData {
-        std::vector<double> area, strain_1, strain_2, cap_fraction, covered_outline, F;
+        std::vector<Vec2> center, velocity;
+        std::vector<double> mass, reference_area;
+        std::vector<double> area, strain_1, strain_2, cap_fraction, covered_outline, F, radius,
+            plastic_strain, grain_class;
         std::vector<GrainContact> contacts;
         std::vector<Mat2> stress;
         std::vector<int> outline_offset;
         std::vector<Vec2> outline_point;
+        std::vector<std::size_t> place;  ///< [n] where the packing's grain is kept
         double covered_area = 0.0;
     } view_;
 };

@@ -1,16 +1,19 @@
-// What other parts of the program see of the grains.
+// What other parts of the program see of the grains, in the order of the packing.
+#include <algorithm>
+
 #include "sdem/solver.hpp"
 
 namespace softgrain::sdem {
 
 GrainView SoftDiscSolver::view(Need need) {
+    fill_state();
     GrainView v;
     v.time = time_;
-    v.box = box_;
-    v.centroid = grains_.position;
-    v.velocity = grains_.velocity;
-    v.mass = grains_.mass;
-    v.reference_area = grains_.reference_area;
+    v.box = motion_.box;
+    v.centroid = view_.center;
+    v.velocity = view_.velocity;
+    v.mass = view_.mass;
+    v.reference_area = view_.reference_area;
     v.wall_force = wall_force_;
     v.energy = energy();
     if (wants(need, Need::area) || wants(need, Need::stress)) {
@@ -34,27 +37,42 @@ GrainView SoftDiscSolver::view(Need need) {
     if (wants(need, Need::fields)) {
         fill_fields();
         v.fields = {{"F", "1", 4, view_.F},
-                    {"radius", "m", 1, grains_.radius},
+                    {"radius", "m", 1, view_.radius},
                     {"principal_strain_1", "1", 1, view_.strain_1},
                     {"principal_strain_2", "1", 1, view_.strain_2},
                     {"cap_fraction", "1", 1, view_.cap_fraction},
                     {"covered_outline", "1", 1, view_.covered_outline}};
+        if (options_.motion.plastic) v.fields.push_back({"plastic_strain", "1", 1, view_.plastic_strain});
+        if (!grains_.grain_class.empty()) v.fields.push_back({"grain_class", "1", 1, view_.grain_class});
     }
     return v;
 }
 
+void SoftDiscSolver::fill_state() {
+    const std::size_t n = size();
+    view_.place.resize(n);
+    view_.center.resize(n);
+    view_.velocity.resize(n);
+    view_.mass.resize(n);
+    view_.reference_area.resize(n);
+    for (std::size_t g = 0; g < n; ++g) {
+        const auto p = static_cast<std::size_t>(grains_.original[g]);
+        const Grain& grain = grains_.grain[g];
+        view_.place[p] = g;
+        view_.center[p] = grains_.center[g];
+        view_.velocity[p] = Vec2{grain.vx, grain.vy};
+        view_.mass[p] = grain.mass;
+        view_.reference_area[p] = grain.reference_area();
+    }
+}
+
 std::vector<Cut> SoftDiscSolver::cuts_of(std::size_t g) const {
     std::vector<Cut> cuts;
-    for (std::size_t w = 0; w < 4; ++w)
-        if ((wall_mask_[g] >> w & 1U) != 0)
-            cuts.push_back(
-                cut_of(shape_[g], -wall_normal(static_cast<int>(w)), wall_contact_[4 * g + w].point));
-    for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
-        const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
-        if (!c.touching()) continue;
-        const Vec2 outward = entry.second ? Vec2{-c.normal} : c.normal;
-        cuts.push_back(cut_of(shape_[g], outward, c.point));
-    }
+    const Ellipse shape = grains_.grain[g].ellipse();
+    each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
+        const Vec2 outward = -side.sign() * Vec2{c.chord_x, c.chord_y}.normalized();
+        cuts.push_back(cut_of(shape, outward, grains_.center[g] + side.arm(c)));
+    });
     return cuts;
 }
 
@@ -62,59 +80,62 @@ std::vector<Cut> SoftDiscSolver::cuts_of(std::size_t g) const {
 void SoftDiscSolver::fill_areas() {
     view_.area.resize(size());
     view_.covered_area = 0.0;
-    for (std::size_t g = 0; g < size(); ++g) {
-        view_.area[g] = clipped_area(shape_[g], cuts_of(g));
-        view_.covered_area += view_.area[g];
+    for (std::size_t p = 0; p < size(); ++p) {
+        const std::size_t g = view_.place[p];
+        view_.area[p] = clipped_area(grains_.grain[g].ellipse(), cuts_of(g));
+        view_.covered_area += view_.area[p];
     }
 }
 
 void SoftDiscSolver::fill_contacts() {
     view_.contacts.clear();
-    std::size_t k = 0;
-    const std::span<const Pair> pairs = neighbors_.pairs();
+    const ForceSource source = forces();
     for (std::size_t g = 0; g < size(); ++g) {
-        const int i = static_cast<int>(g);
-        for (int wall = 3; wall >= 0; --wall) {
-            const auto w = static_cast<std::size_t>(wall);
-            if ((wall_mask_[g] >> w & 1U) == 0) continue;
-            const WallContact& c = wall_contact_[4 * g + w];
-            view_.contacts.push_back(
-                {i, -1 - wall, c.point, -wall_normal(wall), c.force.total * wall_normal(wall), c.length});
-        }
-        for (; k < pairs.size() && pairs[k].i == i; ++k) {
-            const PairContact& c = pair_contact_[k];
-            if (!c.touching()) continue;
-            view_.contacts.push_back({i, pairs[k].j, c.point, c.normal, -c.force.total * c.normal, c.length});
-        }
+        each_contact_of(contacts_, g, source.sliding, [&](const Contact& c, const Side& side) {
+            if (side.second) return;
+            const double q = source.elastic(c, side, g);
+            const Vec2 chord{c.chord_x, c.chord_y};
+            const double length = chord.norm();
+            GrainContact contact;
+            contact.i = packing_index(g);
+            contact.j = side.other < 0 ? side.other : packing_index(static_cast<std::size_t>(side.other));
+            contact.point = grains_.center[g] + side.arm(c);
+            contact.normal = chord / length;
+            contact.force =
+                -(q + damping_without_pull(q, c.q_damping)) * chord - side.tangential * perpendicular(chord);
+            contact.length = length;
+            if (contact.j >= 0 && contact.j < contact.i) {
+                std::swap(contact.i, contact.j);
+                contact.point =
+                    grains_.center[static_cast<std::size_t>(side.other)] + Vec2{c.arm_jx, c.arm_jy};
+                contact.normal = -contact.normal;
+                contact.force = -contact.force;
+            }
+            view_.contacts.push_back(contact);
+        });
     }
+    std::sort(view_.contacts.begin(), view_.contacts.end(), [](const GrainContact& a, const GrainContact& b) {
+        return a.i != b.i ? a.i < b.i : a.j < b.j;
+    });
 }
 
 /// Love-Weber: -(1/area) sum f (x) r over the grain's contacts, its symmetric part; compression positive.
 void SoftDiscSolver::fill_stress() {
-    view_.stress.assign(size(), Mat2::Zero());
-    const auto add = [&](std::size_t g, const Vec2& point, const Vec2& force) {
-        const Vec2 r = point - grains_.position[g];
-        const Mat2 dyad = force * r.transpose();
-        view_.stress[g] -= (0.5 / view_.area[g]) * (dyad + dyad.transpose());
-    };
-    for (std::size_t g = 0; g < size(); ++g) {
-        for (std::size_t w = 0; w < 4; ++w) {
-            if ((wall_mask_[g] >> w & 1U) == 0) continue;
-            const WallContact& c = wall_contact_[4 * g + w];
-            add(g, c.point, c.force.total * wall_normal(static_cast<int>(w)));
-        }
-        for (const PairsOfGrain::Entry& entry : pairs_of_.of(g)) {
-            const PairContact& c = pair_contact_[static_cast<std::size_t>(entry.pair)];
-            if (c.touching()) add(g, c.point, (entry.second ? c.force.total : -c.force.total) * c.normal);
-        }
+    view_.stress.resize(size());
+    const ForceSource source = forces();
+    for (std::size_t p = 0; p < size(); ++p) {
+        const Mat2 moment = matrix_of(sum_contacts(source, view_.place[p]).moment);
+        view_.stress[p] = (-0.5 / view_.area[p]) * (moment + moment.transpose());
     }
 }
 
 void SoftDiscSolver::fill_outlines() {
     view_.outline_offset.assign(1, 0);
     view_.outline_point.clear();
-    for (std::size_t g = 0; g < size(); ++g) {
-        append_clipped_outline(shape_[g], cuts_of(g), options_.outline_points, view_.outline_point);
+    for (std::size_t p = 0; p < size(); ++p) {
+        const std::size_t g = view_.place[p];
+        append_clipped_outline(grains_.grain[g].ellipse(), cuts_of(g), options_.outline_points,
+                               view_.outline_point);
         view_.outline_offset.push_back(static_cast<int>(view_.outline_point.size()));
     }
 }
@@ -122,18 +143,27 @@ void SoftDiscSolver::fill_outlines() {
 void SoftDiscSolver::fill_fields() {
     const std::size_t n = size();
     view_.F.resize(4 * n);
-    view_.strain_1.resize(n);
-    view_.strain_2.resize(n);
-    view_.cap_fraction.resize(n);
-    view_.covered_outline.resize(n);
-    for (std::size_t g = 0; g < n; ++g) {
-        const Mat2& F = grains_.F[g];
-        for (int k = 0; k < 4; ++k) view_.F[4 * g + static_cast<std::size_t>(k)] = F(k / 2, k % 2);
-        const double middle = 0.5 * Polar(F).trace - 1.0, d = half_stretch_difference(F);
-        view_.strain_1[g] = middle + d;
-        view_.strain_2[g] = middle - d;
-        view_.cap_fraction[g] = forces_[g].caps / grains_.reference_area[g];
-        view_.covered_outline[g] = forces_[g].covered;
+    for (auto* values : {&view_.radius, &view_.strain_1, &view_.strain_2, &view_.cap_fraction,
+                         &view_.covered_outline, &view_.plastic_strain, &view_.grain_class})
+        values->resize(n);
+    for (std::size_t p = 0; p < n; ++p) {
+        const std::size_t g = view_.place[p];
+        const Grain& grain = grains_.grain[g];
+        const Mat2 F = matrix_of(grain.F);
+        for (int k = 0; k < 4; ++k) view_.F[4 * p + static_cast<std::size_t>(k)] = F(k / 2, k % 2);
+        const double middle = 0.5 * Polar(grain.F).trace - 1.0, d = half_stretch_difference(grain.F);
+        const GrainSums sums = sum_contacts(forces(), g);
+        view_.radius[p] = grain.radius;
+        view_.strain_1[p] = middle + d;
+        view_.strain_2[p] = middle - d;
+        view_.cap_fraction[p] = sums.caps / grain.reference_area();
+        view_.covered_outline[p] = sums.covered;
+        // Logarithmic: principal values of Fp are l and 1/l, those of G their inverse squares.
+        view_.plastic_strain[p] =
+            options_.motion.plastic
+                ? 0.5 * std::acosh(std::max(1.0, 0.5 * (memory_.plastic_xx[g] + memory_.plastic_yy[g])))
+                : 0.0;
+        view_.grain_class[p] = grains_.grain_class.empty() ? 0.0 : grains_.grain_class[g];
     }
 }
 

@@ -1,0 +1,145 @@
+#include "sdem/grain_motion.hpp"
+
+#include <algorithm>
+
+#include "sdem/laws/mollon2022.hpp"
+#include "sdem/motion_block.hpp"
+
+namespace softgrain::sdem {
+namespace {
+
+constexpr double smallest_area_ratio = 0.04;
+
+void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains, const GrainMemory& memory,
+                std::size_t begin, std::size_t end) {
+    block.count = static_cast<int>(end - begin);
+    for (std::size_t g = begin; g < end; ++g) {
+        const auto l = static_cast<int>(g - begin);
+        const Grain& grain = grains.grain[g];
+        const GrainMaterial& material = grains.material_of(g);
+        const GrainSums sums = sum_contacts(in.forces, g);
+        block.x[l] = grain.x;
+        block.y[l] = grain.y;
+        block.vx[l] = grain.vx;
+        block.vy[l] = grain.vy;
+        block.F.set(l, grain.F);
+        block.F_rate.set(l, grain.F_rate);
+        block.a[l] = grain.a;
+        block.b[l] = grain.b;
+        block.mass[l] = grain.mass;
+        block.inertia_x[l] = 0.25 * grain.mass * grain.a * grain.a;
+        block.inertia_y[l] = 0.25 * grain.mass * grain.b * grain.b;
+        block.area[l] = grain.reference_area();
+        block.mu[l] = material.mu;
+        block.kappa[l] = material.kappa;
+        block.damping_rate[l] = material.shape_damping / grain.radius;
+        block.dilation_inertia[l] = material.dilation_inertia;
+        block.yield[l] = material.yield;
+        block.fx[l] = sums.fx;
+        block.fy[l] = sums.fy;
+        block.damping_fx[l] = sums.damping_fx;
+        block.damping_fy[l] = sums.damping_fy;
+        block.moment.set(l, sums.moment);
+        block.damping_moment.set(l, sums.damping_moment);
+        if (in.law.contact_law == ContactLaw::lens_potential) {
+            block.moment.xx[l] -= sums.pressed;
+            block.moment.yy[l] -= sums.pressed;
+            block.pressure[l] = in.pressure[g];
+        } else {
+            block.caps[l] = Mollon2022::cap_fraction(sums.caps, sums.covered, block.area[l]);
+        }
+        const Vec2 flow = in.flow.box.periodic ? in.flow.affine_velocity(grains.center[g]) : Vec2::Zero();
+        block.flow_vx[l] = flow.x();
+        block.flow_vy[l] = flow.y();
+        if (in.law.imposes_area) block.caps_before[l] = memory.caps_before[g];
+        if (in.law.plastic) {
+            block.plastic_xx[l] = memory.plastic_xx[g];
+            block.plastic_xy[l] = memory.plastic_xy[g];
+            block.plastic_yy[l] = memory.plastic_yy[g];
+        }
+    }
+}
+
+/// Inner stress and the kick; the block is then ready to drift.
+void kick_block(MotionBlock& block, const MotionInput& in, const Grains& grains, const GrainMemory& memory,
+                double dt, std::size_t begin, std::size_t end) {
+    load_block(block, in, grains, memory, begin, end);
+    add_inner_stress(block, in.law);
+    kick(block, in.law, dt);
+}
+
+StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
+    StepWork work;
+    for (int l = 0; l < block.count; ++l) {
+        work.stored += block.stored[l];
+        work.damped += block.damped[l];
+        work.kinetic += block.kinetic[l];
+        if (law.plastic) work.plastic += block.plastic_work[l];
+    }
+    return work;
+}
+
+}  // namespace
+
+std::size_t find_pressures(const Grains& grains, const ContactList& contacts, GrainLaw law,
+                           Pressures& pressures, std::size_t begin, std::size_t end) {
+    PressureBlock block;
+    block.count = static_cast<int>(end - begin);
+    for (std::size_t g = begin; g < end; ++g) {
+        const auto l = static_cast<int>(g - begin);
+        const GrainMaterial& material = grains.material_of(g);
+        block.det[l] = grains.grain[g].F.det();
+        block.given_way[l] = given_way(contacts, grains.grain[g], g);
+        block.mu[l] = material.mu;
+        block.kappa[l] = material.kappa;
+        block.bulge[l] = material.bulge;
+    }
+    find_pressures(block, law);
+    std::size_t bad = grains.size();
+    for (std::size_t g = begin; g < end; ++g) {
+        const auto l = static_cast<int>(g - begin);
+        pressures.pressure[g] = block.pressure[l];
+        pressures.push[g] = block.push[l];
+        if (!(block.area_ratio[l] > smallest_area_ratio)) bad = std::min(bad, g);
+    }
+    return bad;
+}
+
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
+                     std::size_t end, std::size_t& bad) {
+    MotionBlock block;
+    kick_block(block, in, grains, memory, dt, begin, end);
+    drift(block, in.law, dt);
+    for (std::size_t g = begin; g < end; ++g) {
+        const auto l = static_cast<int>(g - begin);
+        Grain& grain = grains.grain[g];
+        grain.x = block.x[l];
+        grain.y = block.y[l];
+        grain.F = block.F[l];
+        grain.vx = block.vx[l];
+        grain.vy = block.vy[l];
+        grain.F_rate = block.F_rate[l];
+        grains.center[g] = Vec2{grain.x, grain.y};
+        grains.reach[g] = block.reach[l];
+        if (in.law.imposes_area) memory.caps_before[g] = block.caps_before[l];
+        if (in.law.plastic) {
+            memory.plastic_xx[g] = block.plastic_xx[l];
+            memory.plastic_xy[g] = block.plastic_xy[l];
+            memory.plastic_yy[g] = block.plastic_yy[l];
+        }
+        const bool near = block.moved[l] <= 0.25 * grain.radius * grain.radius;
+        const bool sound =
+            block.det[l] > smallest_area_ratio && block.reach[l] < std::numeric_limits<double>::infinity();
+        if (!near || !sound) bad = std::min(bad, g);
+    }
+    return work_of(block, in.law);
+}
+
+StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,
+                   std::size_t begin, std::size_t end) {
+    MotionBlock block;
+    kick_block(block, in, grains, memory, dt, begin, end);
+    return work_of(block, in.law);
+}
+
+}  // namespace softgrain::sdem

@@ -1,0 +1,66 @@
+#pragma once
+// The motion of grains under the forces of their contacts: inner stress, kick, constraints, drift.
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sdem/grain_sums.hpp"
+#include "sdem/motion_law.hpp"
+
+namespace softgrain::sdem {
+
+/// "D2F0", "D2F1" or "D2F3"; throws InputError.
+Kinematics kinematics_from(std::string_view name);
+
+/// State that only some laws have.
+struct GrainMemory {
+    std::vector<double> caps_before;  ///< [n] cap fraction one evaluation ago; imposed area only
+    /// [n] (Fp^T Fp)^-1, symmetric with determinant 1: xx, xy, yy. Plastic grains only.
+    std::vector<double> plastic_xx, plastic_xy, plastic_yy;
+};
+
+/// Work done during a step, in the order of the grains.
+struct StepWork {
+    double stored = 0.0;   ///< against inner stress and contacts; 0 if the law has a potential [J]
+    double damped = 0.0;   ///< by dashpots and shape damping [J]
+    double plastic = 0.0;  ///< by plastic flow [J]
+    double kinetic = 0.0;  ///< at the end of the kick [J]
+
+    void add(const StepWork& other) {
+        stored += other.stored;
+        damped += other.damped;
+        plastic += other.plastic;
+        kinetic += other.kinetic;
+    }
+};
+
+/// Pressure of grains under their contacts, for laws that have a potential.
+struct Pressures {
+    std::vector<double> pressure;  ///< [n] p [N/m]
+    std::vector<double> push;      ///< [n] p G' [N/m]
+};
+
+/// Fills the pressures of the grains [begin, end); the first grain whose area ratio Je is not above 0.04, or
+/// n.
+std::size_t find_pressures(const Grains& grains, const ContactList& contacts, GrainLaw law,
+                           Pressures& pressures, std::size_t begin, std::size_t end);
+
+struct MotionInput {
+    ForceSource forces;
+    std::span<const double> pressure;  ///< [n], empty for mollon2022
+    MotionLaw law;
+    WallMotion flow;  ///< of a periodic cell: works are done by the motion against it
+};
+
+/// One step of the grains [begin, end), at most grains_per_block of them: Eq. 58, 59. `bad` becomes the first
+/// grain that moved by more than half its radius, is crushed or turned inside out.
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
+                     std::size_t end, std::size_t& bad);
+
+/// The work of a kick by dt, and the kinetic energy after it; changes nothing.
+StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,
+                   std::size_t begin, std::size_t end);
+
+}  // namespace softgrain::sdem

@@ -1,0 +1,119 @@
+#include "sdem/sliding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softgrain::sdem {
+namespace {
+
+/// A contact as its memory sees it.
+struct Gripping {
+    double normal;    ///< elastic + damping force per chord length [N/m]
+    double friction;  ///< coefficient
+    double spring;    ///< stiffness along the chord [N/m]
+    double build_up;  ///< adhesive stress gained per overlap area lost [N/m^3]
+};
+
+double adhesion_per_area(const SlidingLaw& law, double area) {
+    return law.adhesion_range > 0.0 ? law.cohesion / (law.adhesion_range * area) : 0.0;
+}
+
+SlidingWork grip(const SlidingLaw& law, const Gripping& how, Contact& c, ContactHistory& history,
+                 std::size_t k, double dt) {
+    SlidingWork work;
+    const double lens = c.cap_i + c.cap_j;
+    if (law.cohesion > 0.0 && law.adhesion_range > 0.0) {
+        double& adhesion = history.adhesion[k];
+        if (dt > 0.0) {
+            // A slider between 0 and the cohesion, driven by the loss of overlap.
+            const double trial = adhesion - how.build_up * (lens - history.lens[k]);
+            const double now = c.touching() ? std::clamp(trial, 0.0, law.cohesion) : 0.0;
+            work.adhesion = c.touching() ? now * std::abs(trial - now) / how.build_up
+                                         : 0.5 * adhesion * adhesion / how.build_up;
+            adhesion = now;
+            history.lens[k] = lens;
+        }
+        c.q -= adhesion;
+    } else if (c.touching()) {
+        c.q -= law.cohesion;
+    }
+    if (law.slides()) {
+        double& spring = history.spring[k];
+        if (!c.touching()) {
+            work.friction = 0.5 * how.spring * spring * spring;
+            spring = 0.0;
+            history.tangential[k] = 0.0;
+            return work;
+        }
+        const double length = std::hypot(c.chord_x, c.chord_y);
+        const double most = how.friction * length * std::max(0.0, how.normal);
+        if (dt == 0.0) return work;
+        const double trial = spring + dt * history.slip_rate[k];
+        const double force = std::clamp(how.spring * trial, -most, most);
+        spring = force / how.spring;
+        work.friction = std::abs(force * (trial - spring));
+        history.tangential[k] = -force / length;
+    }
+    return work;
+}
+
+}  // namespace
+
+SlidingWork slide_pairs(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
+                        ContactList& list, double dt, std::size_t begin, std::size_t end) {
+    SlidingWork sum;
+    for (std::size_t k = begin; k < end; ++k) {
+        const auto i = static_cast<std::size_t>(list.pairs()[k].i),
+                   j = static_cast<std::size_t>(list.pairs()[k].j);
+        Contact& c = list.pair_contact[k];
+        const double q = from.elastic(c, i, j);
+        const double E_i = grains.material_of(i).E, E_j = grains.material_of(j).E;
+        const double area = std::min(grains.grain[i].reference_area(), grains.grain[j].reference_area());
+        const Gripping how{q + damping_without_pull(q, c.q_damping), law.friction,
+                           law.stiffness * 2.0 * E_i * E_j / (E_i + E_j), adhesion_per_area(law, area)};
+        sum.add(grip(law, how, c, list.pair_history, k, dt));
+    }
+    return sum;
+}
+
+SlidingWork slide_walls(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
+                        ContactList& list, double dt) {
+    SlidingWork sum;
+    for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
+        const auto g = static_cast<std::size_t>(list.wall_pairs()[k].grain);
+        Contact& c = list.wall_contact[k];
+        const double q = from.elastic_at_wall(c, g);
+        const Gripping how{q + damping_without_pull(q, c.q_damping), law.wall_friction,
+                           law.stiffness * grains.material_of(g).E,
+                           adhesion_per_area(law, grains.grain[g].reference_area())};
+        sum.add(grip(law, how, c, list.wall_history, k, dt));
+    }
+    return sum;
+}
+
+double stored_energy(const SlidingLaw& law, const Grains& grains, const ContactList& list) {
+    double sum = 0.0;
+    const auto add = [&](const Contact& c, const ContactHistory& history, std::size_t k, double spring,
+                         double build_up) {
+        if (law.slides()) sum += 0.5 * spring * history.spring[k] * history.spring[k];
+        if (law.cohesion > 0.0)
+            sum += build_up > 0.0 ? 0.5 * history.adhesion[k] * history.adhesion[k] / build_up
+                                  : -law.cohesion * (c.cap_i + c.cap_j);
+    };
+    for (std::size_t k = 0; k < list.pairs().size(); ++k) {
+        const auto i = static_cast<std::size_t>(list.pairs()[k].i),
+                   j = static_cast<std::size_t>(list.pairs()[k].j);
+        const double E_i = grains.material_of(i).E, E_j = grains.material_of(j).E;
+        const double area = std::min(grains.grain[i].reference_area(), grains.grain[j].reference_area());
+        add(list.pair_contact[k], list.pair_history, k, law.stiffness * 2.0 * E_i * E_j / (E_i + E_j),
+            adhesion_per_area(law, area));
+    }
+    for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
+        const auto g = static_cast<std::size_t>(list.wall_pairs()[k].grain);
+        add(list.wall_contact[k], list.wall_history, k, law.stiffness * grains.material_of(g).E,
+            adhesion_per_area(law, grains.grain[g].reference_area()));
+    }
+    return sum;
+}
+
+}  // namespace softgrain::sdem

@@ -1,0 +1,62 @@
+#include "sdem/wall_contacts.hpp"
+
+#include "sdem/geometry/wall_chord.hpp"
+#include "sdem/laws/lens_potential.hpp"
+#include "sdem/laws/mollon2022.hpp"
+
+namespace softgrain::sdem {
+namespace {
+
+/// X' of the material point at `arm` from the centre: F' F^-1 arm.
+Vec2 velocity_at(const Grain& g, const Vec2& arm) {
+    const double to_reference = 1.0 / g.F.det();
+    const double X = to_reference * (g.F.yy * arm.x() - g.F.xy * arm.y());
+    const double Y = to_reference * (g.F.xx * arm.y() - g.F.yx * arm.x());
+    return {g.vx + g.F_rate.xx * X + g.F_rate.xy * Y, g.vy + g.F_rate.yx * X + g.F_rate.yy * Y};
+}
+
+}  // namespace
+
+std::size_t evaluate_walls(const WallInput& in, ContactList& list) {
+    auto bad = static_cast<std::size_t>(-1);
+    for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
+        const WallPair pair = list.wall_pairs()[k];
+        const auto g = static_cast<std::size_t>(pair.grain);
+        const Grain& grain = in.grains.grain[g];
+        const GrainMaterial& material = in.grains.material_of(g);
+        Contact& c = list.wall_contact[k];
+        c = Contact{};
+        const double distance = in.motion.box.distance(pair.wall, in.grains.center[g]);
+        if (distance >= in.grains.reach[g]) continue;
+        const Vec2 inward = wall_normal(pair.wall);
+        const WallChord chord = wall_chord(grain.ellipse(), inward, distance);
+        if (!chord.touching) continue;
+        const Vec2 arm = chord.point - in.grains.center[g];
+        const Vec2 against_wall = velocity_at(grain, arm) - in.motion.velocity_of(pair.wall);
+        const double s = chord.cap / grain.reference_area();
+        const ContactInput input{
+            chord.length, chord.depth, -inward.dot(against_wall), s, 0.0, material.plane_E, 0.0,
+            material.E,   grain.mass};
+        const ContactAnswer answer = in.law == ContactLaw::lens_potential
+                                         ? LensPotential::contact(input, in.contact_damping)
+                                         : Mollon2022::contact(input, in.contact_damping);
+        c.chord_x = -chord.length * inward.x();
+        c.chord_y = -chord.length * inward.y();
+        c.arm_ix = arm.x();
+        c.arm_iy = arm.y();
+        c.cap_i = chord.cap;
+        c.q = answer.q;
+        c.q_damping = answer.q_damping;
+        c.share_i = 1.0;
+        c.psi_i = static_cast<float>(chord.psi);
+        c.stiffness = static_cast<float>(answer.stiffness);
+        c.depth = static_cast<float>(chord.depth);
+        // Of the wall against the grain, along the turned outward normal.
+        if (!list.wall_history.slip_rate.empty())
+            list.wall_history.slip_rate[k] = cross(inward, against_wall);
+        if ((chord.escaped || !(answer.stiffness > 0.0)) && k < bad) bad = k;
+    }
+    return bad;
+}
+
+}  // namespace softgrain::sdem
