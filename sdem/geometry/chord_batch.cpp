@@ -125,8 +125,8 @@ SOFTGRAIN_INLINE void find_ends(const ChordBatch& in, Work& w, int k) {
 
 /// Chord, depths, and whether to trust them.
 SOFTGRAIN_INLINE void finish_chord(ChordBatch& out, Work& w, int k) {
-    // The step that was taken last, in opening angles, and the smallest opening: as in chord.hpp.
-    constexpr double settled = 5e-6, smallest = 1e-3;
+    // Of the last step, next to the opening's sine; of that sine: as in chord.hpp.
+    constexpr double settled = 5e-6, smallest = 1e-3, rounding = 1e-14;
     const Vector a{w.ax[k], w.ay[k]}, b{w.bx[k], w.by[k]};
     const Vector t{b.x - a.x, b.y - a.y}, m{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};  // b's unit frame
     const Vector s{w.xx[k] * t.x + w.xy[k] * t.y, w.yx[k] * t.x + w.yy[k] * t.y};   // a's
@@ -154,7 +154,9 @@ SOFTGRAIN_INLINE void finish_chord(ChordBatch& out, Work& w, int k) {
                        (w.value_b[k] * w.value_b[k] <= band * (w.slope_b[k] * w.slope_b[k]));
     const bool sides = (w.slope_a[k] < 0.0) & (w.slope_b[k] > 0.0);
     const bool sizes = (sine2_b > 4.0 * smallest * smallest) & (twice_a >= 0.0) & (twice_b >= 0.0);
-    const bool sound = found & sides & sizes & (w.one_minimum[k] > 0.0);
+    // A guess far from any chord may leave the circle.
+    const bool on_circle = (std::abs(dot(a, a) - 1.0) < rounding) & (std::abs(dot(b, b) - 1.0) < rounding);
+    const bool sound = found & sides & sizes & on_circle & (w.one_minimum[k] > 0.0);
     out.sound[k] = sound ? 1.0 : 0.0;
     out.end_ax[k] = sound ? a.x : out.end_ax[k];
     out.end_ay[k] = sound ? a.y : out.end_ay[k];

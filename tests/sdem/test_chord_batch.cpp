@@ -55,6 +55,7 @@ TEST_P(BatchAgainstLongDouble, EveryQuantity) {
     const auto [depth, strain, pairs, tolerance] = GetParam();
     std::mt19937_64 random(7);
     double worst = 0.0;
+    int sound = 0;
     for (int k = 0; k < pairs; ++k) {
         const RandomPair pair(random, strain, 0.3);
         const double overlap = 2.0 * depth * pair.R_j;
@@ -62,7 +63,10 @@ TEST_P(BatchAgainstLongDouble, EveryQuantity) {
         chord_of(pair.i, pair.j((k % 2 == 0 ? 0.9 : 1.1) * overlap), warm);
         const Ellipse j = pair.j(overlap);
         const ChordBatch batch = solved(pair.i, j, warm);
-        ASSERT_EQ(batch.sound[0], 1.0) << "pair " << k;
+        const bool one_minimum = detail::Level(pair.i, j).has_one_minimum();
+        ASSERT_EQ(batch.sound[0], one_minimum ? 1.0 : 0.0) << "pair " << k;
+        if (!one_minimum) continue;
+        ++sound;
         const double error = largest_error(batch, pair.i, long_chord(pair.i, j));
         EXPECT_TRUE(error < tolerance) << "pair " << k << ": " << error;
         worst = std::max(worst, error);
@@ -73,6 +77,7 @@ TEST_P(BatchAgainstLongDouble, EveryQuantity) {
         EXPECT_NEAR((ends_of(batch, 0).a - cold.a).norm(), 0.0, tolerance * c.psi_j);
         EXPECT_NEAR((ends_of(batch, 0).b - cold.b).norm(), 0.0, tolerance * c.psi_j);
     }
+    EXPECT_GE(sound, pairs * 95 / 100);
     RecordProperty("worst_relative_error", fmt::format("{:.2e}", worst));
 }
 
@@ -172,21 +177,20 @@ TEST(ChordBatch, AGuessRoundedToFloatGivesTheSameChord) {
 TEST(ChordBatch, NeverSoundAndWrong) {
     std::mt19937_64 random(13);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    int sound = 0, swapped = 0;
+    int sound = 0;
     for (int k = 0; k < 20000; ++k) {
         const Ellipse i = make_ellipse(Vec2::Zero(), test::random_F(random, 0.7), 1.0);
         const Ellipse j = make_ellipse(Vec2{1.8 * unit(random), 1.8 * unit(random)},
                                        test::random_F(random, 0.7), 0.5 + 0.4 * unit(random));
         WarmStart cold, warm;
         const Chord c = chord_of(i, j, cold);
-        const auto near = [&](const Vec2& u, double off) {
-            return Vec2{(u + off * perpendicular(u)).normalized()};
+        const auto guess = [&](const Vec2& end) {
+            const double off = std::pow(10.0, -2.0 + 2.0 * unit(random));
+            const Vec2 u = c.touching() ? end : Vec2::UnitX();
+            return Vec2{(u + (unit(random) > 0.0 ? off : -off) * perpendicular(u)).normalized()};
         };
-        warm.a =
-            k % 2 == 0 && c.touching() ? near(cold.a, unit(random)) : near(Vec2::UnitX(), 9 * unit(random));
-        warm.b =
-            k % 2 == 0 && c.touching() ? near(cold.b, unit(random)) : near(Vec2::UnitX(), 9 * unit(random));
-        if (k % 5 == 0) std::swap(warm.a, warm.b), ++swapped;
+        warm = {guess(cold.a), guess(cold.b)};
+        if (k % 5 == 0) std::swap(warm.a, warm.b);
         const ChordBatch batch = solved(i, j, warm);
         if (batch.sound[0] == 0.0) {
             EXPECT_EQ(ends_of(batch, 0).a, warm.a);
