@@ -12,7 +12,7 @@ namespace softgrain {
 struct JamRequest {
     double aspect_ratio = 1.0;  ///< height / width
     /// Stop at this packing fraction of the grains, below jamming.
-    std::optional<double> packing_fraction;
+    std::optional<double> packing_fraction = {};
     bool periodic = false;
     double grain_share =
         1.0;  ///< area of the grains / area of the discs, less than 1 for grains inside discs

@@ -148,7 +148,7 @@ TEST(Neighbors, ThreadsDoNotChangeTheList) {
     Cloud cloud;
     for (int k = 0; k < 25000; ++k) {
         cloud.x.emplace_back(30.0 * unit(random), 30.0 * unit(random));
-        cloud.reach.push_back(0.1 / (1.0 + 9.0 * unit(random)));
+        cloud.reach.push_back(0.3 / (1.0 + 9.0 * unit(random)));
     }
     NeighborList list[2];
     for (const int threads : {1, 2}) {
