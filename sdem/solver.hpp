@@ -43,6 +43,7 @@ class SoftDiscSolver : public Solver {
     void update_contacts(double dt);
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
+    ContactView contact_view() const { return {contacts_, grains_.center, lattice_}; }
     ForceSource forces() const;
     MotionInput motion_input() const;
     bool has_potential() const { return options_.motion.contact_law == ContactLaw::lens_potential; }
@@ -73,7 +74,7 @@ class SoftDiscSolver : public Solver {
                            double dt) const;
     double time_step_limit() const;
     double grain_time_step(std::size_t g) const;
-    void throw_bad_grain(std::size_t g, const std::vector<Vec2>& before) const;
+    void throw_bad_grain(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
@@ -92,6 +93,7 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
+    Box lattice_;             ///< the box now, on the lattice of the contact list
     double last_step_ = 0.0;  ///< [s]; 0 before the first step
     double time_step_ = 0.0;  ///< [s] found every few steps
     long long steps_ = 0;
