@@ -17,7 +17,6 @@
 namespace softgrain::sdem {
 namespace {
 
-constexpr std::size_t threads_pay_off = 400;  // grains
 constexpr std::size_t pairs_per_chunk = 128;
 constexpr int steps_per_time_step_check = 16;
 
@@ -107,7 +106,7 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     std::vector<StepWork> work(blocks());
     std::size_t bad = size();
     const MotionInput input = motion_input();
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
         work[block] = move_grains(input, grains_, memory_, dt, begin, end, bad);
@@ -118,12 +117,16 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
         ledger_.plastic += w.plastic;
     }
     time_ += dt;
-    last_step_ = dt;
+    lag_ = 0.5 * dt;
     ++steps_;
     motion_.box = walls.after(dt);
     lattice_ = cell().box;
     grains_.center.swap(grains_.next_center);  // next_center now holds the last one
     if (bad < size()) throw_bad_grain(bad);
+    refresh_contacts(dt);
+}
+
+void SoftDiscSolver::refresh_contacts(double dt) {
     if (contacts_.stale(grains_, lattice_)) rebuild_contacts();
     update_contacts(dt);
 }
@@ -171,7 +174,8 @@ void SoftDiscSolver::update_contacts(double dt) {
     if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
     if (motion_.box.periodic) sum_cell_stress();
-    if (steps_ % steps_per_time_step_check == 0 || time_step_ == 0.0) time_step_ = time_step_limit();
+    if (time_step_ == 0.0 || (dt > 0.0 && steps_ % steps_per_time_step_check == 0))
+        time_step_ = time_step_limit();
 }
 
 void SoftDiscSolver::evaluate_pairs_and_walls() {
@@ -187,7 +191,7 @@ void SoftDiscSolver::evaluate_pairs_and_walls() {
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<BadPair> bad(chunks);
-#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
         bad[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
@@ -205,7 +209,7 @@ void SoftDiscSolver::evaluate_pairs_and_walls() {
 
 void SoftDiscSolver::find_all_pressures() {
     std::size_t bad = size();
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
         bad = std::min(
@@ -221,7 +225,7 @@ void SoftDiscSolver::slide(double dt) {
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<SlidingWork> work(chunks);
-#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
         work[chunk] = slide_pairs(options_.sliding, source, grains_, contacts_, dt, begin,
@@ -302,6 +306,12 @@ void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& b
     if (!has_potential()) ledger.elastic += work - damped;
 }
 
+bool SoftDiscSolver::sound(std::size_t g) const {
+    const Grain& grain = grains_.grain[g];
+    return (grains_.center[g] - grains_.next_center[g]).squaredNorm() <= 0.25 * grain.radius * grain.radius &&
+           grain.F.det() > smallest_area_ratio && grains_.reach[g] < std::numeric_limits<double>::infinity();
+}
+
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     const double step = (grains_.center[g] - grains_.next_center[g]).norm();
@@ -361,13 +371,12 @@ double SoftDiscSolver::potential_energy() const {
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
-    const double half = 0.5 * last_step_;
-    add_boundary_work(ledger, motion_, motion_, half);
+    add_boundary_work(ledger, motion_, motion_, lag_);
     const MotionInput input = motion_input();
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block;
         const StepWork work =
-            kick_work(input, grains_, memory_, half, begin, std::min(size(), begin + grains_per_block));
+            kick_work(input, grains_, memory_, lag_, begin, std::min(size(), begin + grains_per_block));
         ledger.damping += work.damped;
         ledger.kinetic += work.kinetic;
         if (!has_potential()) ledger.elastic += work.stored;
