@@ -132,8 +132,7 @@ SOFTGRAIN_INLINE void finish_chord(ChordBatch& out, Work& w, int k) {
     const bool found =
         (w.end_a.value[k] <= band * -w.end_a.slope[k]) & (w.end_b.value[k] <= band * w.end_b.slope[k]);
     const bool guessed = (w.quartic_a.excess[k] < rounded) & (w.quartic_b.excess[k] < rounded);
-    const bool sizes = (twice_sine_b > 2.0 * smallest) & (y4_a <= largest_y4) & (y4_b <= largest_y4) &
-                       (product_a > 0.0) & (product_b > 0.0);
+    const bool sizes = (twice_sine_b > 2.0 * smallest) & (y4_a <= largest_y4) & (y4_b <= largest_y4);
     const bool sound = found & guessed & sizes & (w.one_minimum[k] > 0.0);
     out.sound[k] = sound ? 1.0 : 0.0;
     out.end_ax[k] = sound ? a.x : out.end_ax[k];
