@@ -109,7 +109,8 @@ RunReport run_into_folder(const RunRequest& request) {
 
     HistoryWriter history(request.folder / "history.csv", file.state.history);
     const Need grain_data = Need::area | Need::stress | Need::fields;
-    GrainWriter grains(request.folder, scenario.sampling.outlines ? grain_data | Need::outlines : grain_data);
+    GrainWriter grains(request.folder, scenario.sampling.outlines ? grain_data | Need::outlines : grain_data,
+                       request.packing.grain_class);
     ContactWriter contacts(request.folder);
     WallWriter walls(request.folder);
     std::vector<Observer*> observers{&history, &grains, &walls};
@@ -146,6 +147,10 @@ RunReport run_into_folder(const RunRequest& request) {
         }
     } catch (const DivergedError& error) {
         report.exit_code = 3;
+        report.ended = error.what();
+    } catch (
+        const InputError& error) {  // known only once the run is there, as a stage that begins beyond its end
+        report.exit_code = 2;
         report.ended = error.what();
     }
     if (!request.quiet) progress.finish(run);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bpm/solver.hpp"
+#include "common/refusals.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -57,6 +58,15 @@ std::span<const KeySpec> keys() {
 }
 
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
+    const auto not_for_aggregates = [&](Feature feature, std::string_view why) {
+        refuse(scenario, packing, "bpm", feature, why);
+    };
+    not_for_aggregates(Feature::periodic_cell, "its contact solver knows only walls");
+    not_for_aggregates(Feature::grain_classes, "its discs attract each other alike in every grain");
+    not_for_aggregates(Feature::ellipses, "its aggregates begin as discs");
+    not_for_aggregates(Feature::wall_friction, "its walls are frictionless");
+    not_for_aggregates(Feature::cohesion, "its discs attract each other only within a grain");
+    not_for_aggregates(Feature::yield_stress, "its grains yield by bpm.attraction_stress");
     return std::make_unique<BpmSolver>(scenario, packing);
 }
 

@@ -68,12 +68,13 @@ void NeighborGrid::make_levels(std::span<const double> reach) {
 void NeighborGrid::measure(std::span<const Vec2> x) {
     const double widest = 2.0 * levels_.front().largest_reach + skin_;
     if (cell_.periodic) {
+        const double largest = 2.0 * levels_.front().largest_reach;
         if (cell_.spacing() < 2.0 * widest)
-            throw InputError(fmt::format(
-                "the periodic cell is too small for its grains: its faces are {:.4g} m apart, at least "
-                "{:.4g} m "
-                "are needed (four of the largest grain radii and a margin); take more or smaller grains",
-                cell_.spacing(), 2.0 * widest));
+            throw InputError(
+                fmt::format("the periodic cell is too small for its grains: {:.4g} m across, at least {:.4g} "
+                            "m are needed "
+                            "for a largest grain of {:.4g} m; take more grains, or smaller ones",
+                            cell_.spacing(), 2.0 * widest, largest));
         across_x_ = cell_.width() / std::hypot(1.0, cell_.shear_strain());
         across_y_ = cell_.height();
     } else {

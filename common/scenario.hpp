@@ -14,13 +14,13 @@ namespace softgrain {
 
 /// Isotropic grain material, plane strain. 2D stress is [N/m].
 struct Material {
-    double youngs_modulus = 1.0;         ///< E [N/m]
-    double poisson_ratio = 0.3;          ///< nu, 0 to 0.5
-    double density = 1.0;                ///< rho [kg/m^2]
-    double friction = 0.0;               ///< Coulomb coefficient between grains
-    double wall_friction = 0.0;          ///< Coulomb coefficient between grains and walls
-    double cohesion = 0.0;               ///< largest normal adhesion per length of contact [N/m]
-    std::optional<double> yield_stress;  ///< elasto-plastic grains [N/m]
+    double youngs_modulus = 1.0;              ///< E [N/m]
+    double poisson_ratio = 0.3;               ///< nu, 0 to 0.5
+    double density = 1.0;                     ///< rho [kg/m^2]
+    double friction = 0.0;                    ///< Coulomb coefficient between grains
+    double wall_friction = 0.0;               ///< Coulomb coefficient between grains and walls
+    double cohesion = 0.0;                    ///< largest normal adhesion per length of contact [N/m]
+    std::optional<double> yield_stress = {};  ///< elasto-plastic grains [N/m]
 };
 
 /// A share of the grains with their own material and shape. What holds between grains (friction, wall

@@ -6,6 +6,13 @@ namespace softgrain::rigid_dem {
 
 void RigidDem::save(Checkpoint& to) const {
     to.put("box", std::span<const double>(box_.position));
+    to.put("cell", std::vector<double>{box_.tilt, static_cast<double>(flips_)});
+    to.put("walls_velocity", std::vector<double>{walls_.velocity[0], walls_.velocity[1], walls_.velocity[2],
+                                                 walls_.velocity[3], walls_.tilt_rate});
+    const Box& built = neighbors_.built_cell();
+    to.put("built_cell", std::vector<double>{built.position[0], built.position[1], built.position[2],
+                                             built.position[3], built.tilt});
+    to.put("virials", std::vector<Mat2>{cell_virial_, kinetic_tensor_});
     to.put("time", time_);
     to.put("x", x_);
     to.put("v", v_);
@@ -43,7 +50,22 @@ void RigidDem::load(const Checkpoint& from) {
     read("built_at", built_at, n);
     neighbors_ = {};
     x_ = built_at;
-    rebuild_neighbors();
+    read("built_cell", values, 5);
+    const Box cell = box_;
+    std::copy(values.begin(), values.begin() + 4, box_.position.begin());
+    box_.tilt = values[4];
+    flips_ = 0;
+    list_neighbors();
+    box_ = cell;
+    read("cell", values, 2);
+    box_.tilt = values[0];
+    flips_ = static_cast<int>(values[1]);
+    read("walls_velocity", values, 5);
+    walls_ = {box_, {values[0], values[1], values[2], values[3]}, values[4]};
+    std::vector<Mat2> virials;
+    read("virials", virials, 2);
+    cell_virial_ = virials[0];
+    kinetic_tensor_ = virials[1];
     read("x", x_, n);
     read("v", v_, n);
     read("spin", spin_, n);

@@ -1,5 +1,6 @@
 #include "rigid_dem/method.hpp"
 
+#include "common/refusals.hpp"
 #include "rigid_dem/solver.hpp"
 
 namespace softgrain::rigid_dem {
@@ -10,6 +11,10 @@ const Method& method() {
         .title = "rigid discs, linear contacts with damping and Coulomb friction (Cundall and Strack 1979)",
         .keys = keys,
         .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
+            refuse(scenario, packing, "rigid_dem", Feature::ellipses, "its grains are discs");
+            refuse(scenario, packing, "rigid_dem", Feature::wall_friction, "its walls are frictionless");
+            refuse(scenario, packing, "rigid_dem", Feature::cohesion, "its contacts never pull");
+            refuse(scenario, packing, "rigid_dem", Feature::yield_stress, "its contacts are elastic");
             return std::make_unique<RigidDem>(scenario, packing);
         },
         .not_given = ""};

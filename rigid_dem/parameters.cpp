@@ -42,14 +42,10 @@ std::span<const KeySpec> keys() {
 
 Parameters parameters_of(const Scenario& scenario) {
     const Settings& table = scenario.method_settings.at("rigid_dem");
-    const double k = table.number("stiffness") * scenario.material.youngs_modulus;
-    return {.pair_stiffness = 0.5 * k,
-            .wall_stiffness = k,
+    return {.stiffness = table.number("stiffness"),
             .shear_ratio = table.number("shear_ratio"),
             .friction = scenario.material.friction,
             .damping_ratio = damping_ratio(table.number("restitution")),
-            .density = scenario.material.density,
-            .young = scenario.material.youngs_modulus,
             .safety = table.number("safety"),
             .skin = table.number("skin"),
             .overlap_limit = table.number("overlap_limit")};

@@ -87,8 +87,7 @@ void RigidDem::list_contacts() {
         }
         for (; k < pairs.size() && pairs[k].i == static_cast<int>(i); ++k) {
             if (overlap_[k] <= 0.0) continue;
-            const auto j = static_cast<std::size_t>(pairs[k].j);
-            const Vec2 n = (x_[j] - x_[i]).normalized();
+            const Vec2 n = branch(k).normalized();
             contacts_.push_back({pairs[k].i, pairs[k].j, x_[i] + (radius_[i] - 0.5 * overlap_[k]) * n, n,
                                  pair_force_[k], 0.0});
         }
@@ -103,7 +102,9 @@ void RigidDem::measure_stress() {
         stress_[i] -= c.force * (c.point - x_[i]).transpose() / reference_area_[i];
         if (c.with_wall()) continue;
         const auto j = static_cast<std::size_t>(c.j);
-        stress_[j] += c.force * (c.point - x_[j]).transpose() / reference_area_[j];
+        const Vec2 from_j = c.point - x_[j];
+        stress_[j] +=
+            c.force * (box_.periodic ? box_.nearest(from_j) : from_j).transpose() / reference_area_[j];
     }
 }
 

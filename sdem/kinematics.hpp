@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/simd.hpp"
+
 #include "sdem/motion_law.hpp"
 #include "sdem/tensor.hpp"
 
@@ -12,44 +14,48 @@ namespace softgrain::sdem {
 struct Inertia {
     double x, y;  ///< [kg m^2]
 
-    Tensor times(const Tensor& rate) const { return {x * rate.xx, y * rate.xy, x * rate.yx, y * rate.yy}; }
-    Tensor divides(const Tensor& moment) const {
+    SOFTGRAIN_INLINE Tensor times(const Tensor& rate) const {
+        return {x * rate.xx, y * rate.xy, x * rate.yx, y * rate.yy};
+    }
+    SOFTGRAIN_INLINE Tensor divides(const Tensor& moment) const {
         const double to_x = 1.0 / x, to_y = 1.0 / y;
         return {to_x * moment.xx, to_y * moment.xy, to_x * moment.yx, to_y * moment.yy};
     }
     /// Share of `rate` along `direction`, as a factor.
-    double share(const Tensor& rate, const Tensor& direction) const {
+    SOFTGRAIN_INLINE double share(const Tensor& rate, const Tensor& direction) const {
         const Tensor weighted = times(direction);
         return contraction(rate, weighted) / contraction(direction, weighted);
     }
 };
 
 /// The part of F' that deforms the grain: without the spin that carries all its angular momentum.
-inline Tensor without_spin(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
+SOFTGRAIN_INLINE Tensor without_spin(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
     const Tensor W = F.turned();
     return rate - inertia.share(rate, W) * W;
 }
 
-/// Inertia sigma times its own against changes of area: lets nearly incompressible grains take long steps.
-/// C = cofactor of F is orthogonal to any spin, so angular momentum is untouched.
-struct Dilation {
-    Tensor C, C_per_inertia;
-    double sigma, norm;
-
-    Dilation(const Tensor& F, const Inertia& inertia, double extra)
-        : C(F.cofactor()),
-          C_per_inertia(inertia.divides(C)),
-          sigma(extra),
-          norm(contraction(C, C_per_inertia)) {}
-
-    /// Accelerations with the extra inertia, from those without.
-    Tensor slowed(const Tensor& acceleration) const {
-        return acceleration - (sigma / (1.0 + sigma) * contraction(C, acceleration) / norm) * C_per_inertia;
-    }
-    /// What the extra inertia adds to the momentum of a rate.
-    Tensor momentum(const Tensor& rate) const { return (sigma * contraction(C, rate) / norm) * C; }
-    double energy(const Tensor& rate) const { return 0.5 * contraction(momentum(rate), rate); }
-};
+/// d(det F)/dt.
+SOFTGRAIN_INLINE double dilation_rate(const Tensor& F, const Tensor& rate) {
+    return (F.yy * rate.xx - F.yx * rate.xy) + (F.xx * rate.yy - F.xy * rate.yx);
+}
+/// |C|^2 weighted with 1/M, where C = d(det F)/dF. C is orthogonal to any spin.
+SOFTGRAIN_INLINE double dilation_norm(const Tensor& F, const Inertia& inertia) {
+    return (F.yy * F.yy + F.xy * F.xy) / inertia.x + (F.yx * F.yx + F.xx * F.xx) / inertia.y;
+}
+/// Inertia sigma times its own against changes of area lets nearly incompressible grains take long steps and
+/// leaves angular momentum alone. What it adds to the momentum of a rate, as a factor of C.
+SOFTGRAIN_INLINE double dilation_momentum(const Tensor& F, const Tensor& rate, const Inertia& inertia,
+                                          double sigma) {
+    return sigma * dilation_rate(F, rate) / dilation_norm(F, inertia);
+}
+/// Accelerations with that inertia, from those without.
+SOFTGRAIN_INLINE Tensor slowed_dilation(const Tensor& F, const Tensor& acceleration, const Inertia& inertia,
+                                        double sigma) {
+    const double factor = sigma / (1.0 + sigma) * dilation_rate(F, acceleration) / dilation_norm(F, inertia);
+    const double x = factor / inertia.x, y = factor / inertia.y;
+    return {acceleration.xx - x * F.yy, acceleration.xy + y * F.yx, acceleration.yx + x * F.xy,
+            acceleration.yy - y * F.xx};
+}
 
 /// Largest change of eps_iso that one step may impose, so that a violent change cannot run away.
 inline constexpr double largest_dilation_step = 1e-3;
@@ -62,7 +68,7 @@ struct Motion {
     static constexpr bool constrains = imposes_area || K != Kinematics::D2F3;
 
     /// F' without what these kinematics do not allow. Nothing taken away carries angular momentum.
-    static Tensor allowed(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
+    static SOFTGRAIN_INLINE Tensor allowed(const Tensor& F, const Tensor& rate, const Inertia& inertia) {
         if constexpr (!constrains) {
             return rate;
         } else {
@@ -81,7 +87,7 @@ struct Motion {
     }
 
     /// F after the step, put back on what these kinematics allow. `cap_fraction` = sum S / (pi R^2).
-    static Tensor corrected(const Tensor& F, double cap_fraction) {
+    static SOFTGRAIN_INLINE Tensor corrected(const Tensor& F, double cap_fraction) {
         if constexpr (K == Kinematics::D2F0) {
             return Polar(F).rotation();
         } else if constexpr (imposes_area) {
@@ -97,7 +103,7 @@ struct Motion {
     }
 
     /// F' after F was corrected: allowed at the new F, with the angular momentum it had before.
-    static Tensor carried(const Tensor& before, const Tensor& corrected, const Tensor& rate,
+    static SOFTGRAIN_INLINE Tensor carried(const Tensor& before, const Tensor& corrected, const Tensor& rate,
                           const Inertia& inertia) {
         const Tensor kept = allowed(corrected, rate, inertia), W = corrected.turned();
         const double lost =

@@ -11,12 +11,12 @@ namespace softgrain::sdem {
 namespace {
 
 /// Moments so far are about the present shape: sum f (x) r. Those conjugate to F are sum f (x) r F^-T.
-[[gnu::always_inline]] inline Tensor pulled_back(const Tensor& moment, const Tensor& F) {
+SOFTGRAIN_INLINE Tensor pulled_back(const Tensor& moment, const Tensor& F) {
     return (1.0 / F.det()) * (moment * F.cofactor());
 }
 
 template <GrainLaw law, ContactLaw contact, bool imposes_area>
-[[gnu::always_inline]] inline void stress_lanes(MotionBlock& block) {
+SOFTGRAIN_INLINE void stress_lanes(MotionBlock& block) {
 #pragma omp simd
     for (int l = 0; l < block.count; ++l) {
         const Tensor F = block.F[l];
@@ -84,9 +84,8 @@ SOFTGRAIN_CLONES void shape_damping(MotionBlock& block) {
         const Tensor F = block.F[l], rate = block.F_rate[l];
         const Inertia inertia{block.inertia_x[l], block.inertia_y[l]};
         const Tensor deforming = without_spin(F, rate, inertia);
-        Tensor force = inertia.times(deforming);
-        const Dilation dilation(F, inertia, block.dilation_inertia[l]);
-        force = force + dilation.momentum(deforming);
+        const double dilation = dilation_momentum(F, deforming, inertia, block.dilation_inertia[l]);
+        const Tensor force = inertia.times(deforming) + dilation * F.cofactor();
         const Tensor damping = -block.damping_rate[l] * force;
         block.moment.set(l, block.moment[l] + damping);
         block.damping_moment.set(l, block.damping_moment[l] + damping);
@@ -96,7 +95,7 @@ SOFTGRAIN_CLONES void shape_damping(MotionBlock& block) {
 /// Eq. 58. Work at the mean of the velocities before and after equals the change of kinetic energy to
 /// rounding.
 template <class Motion, bool dilates>
-[[gnu::always_inline]] inline void kick_lanes(MotionBlock& block, double dt) {
+SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, double dt) {
 #pragma omp simd
     for (int l = 0; l < block.count; ++l) {
         const double over_mass = dt / block.mass[l];
@@ -107,7 +106,7 @@ template <class Motion, bool dilates>
         Tensor acceleration = inertia.divides(moment);
         double extra = 0.0;
         if constexpr (dilates)
-            acceleration = Dilation(F, inertia, block.dilation_inertia[l]).slowed(acceleration);
+            acceleration = slowed_dilation(F, acceleration, inertia, block.dilation_inertia[l]);
         const Tensor free_rate = rate + dt * acceleration;
         const Tensor new_rate = Motion::allowed(F, free_rate, inertia);
         const double ux = new_vx - block.flow_vx[l], uy = new_vy - block.flow_vy[l];
@@ -120,7 +119,8 @@ template <class Motion, bool dilates>
             -dt * (block.fx[l] * mean_vx + block.fy[l] * mean_vy + contraction(moment, mean_rate));
         if constexpr (Motion::constrains)  // the constraint's reaction
             stored -= contraction(inertia.times(new_rate - free_rate), mean_rate);
-        if constexpr (dilates) extra = Dilation(F, inertia, block.dilation_inertia[l]).energy(new_rate);
+        if constexpr (dilates) extra = 0.5 * dilation_rate(F, new_rate) *
+                    dilation_momentum(F, new_rate, inertia, block.dilation_inertia[l]);
         block.new_vx[l] = new_vx;
         block.new_vy[l] = new_vy;
         block.new_rate.set(l, new_rate);
@@ -133,7 +133,7 @@ template <class Motion, bool dilates>
 
 /// Eq. 59.
 template <class Motion>
-[[gnu::always_inline]] inline void drift_lanes(MotionBlock& block, double dt) {
+SOFTGRAIN_INLINE void drift_lanes(MotionBlock& block, double dt) {
 #pragma omp simd
     for (int l = 0; l < block.count; ++l) {
         const double dx = dt * block.new_vx[l], dy = dt * block.new_vy[l];

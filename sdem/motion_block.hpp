@@ -8,8 +8,8 @@ namespace softgrain::sdem {
 struct TensorLanes {
     alignas(64) double xx[grains_per_block], xy[grains_per_block], yx[grains_per_block], yy[grains_per_block];
 
-    Tensor operator[](int l) const { return {xx[l], xy[l], yx[l], yy[l]}; }
-    void set(int l, const Tensor& t) {
+    SOFTGRAIN_INLINE Tensor operator[](int l) const { return {xx[l], xy[l], yx[l], yy[l]}; }
+    SOFTGRAIN_INLINE void set(int l, const Tensor& t) {
         xx[l] = t.xx;
         xy[l] = t.xy;
         yx[l] = t.yx;

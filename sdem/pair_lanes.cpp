@@ -11,7 +11,7 @@ namespace {
 
 /// Local forces of all lanes. `Rates`: velocities at the chord's mid-point are known and wanted.
 template <class Law, bool Rates>
-[[gnu::always_inline]] inline void answer_each(PairLanes& batch, double damping) {
+SOFTGRAIN_INLINE void answer_each(PairLanes& batch, double damping) {
     ChordBatch& c = batch.chord;
     const int count = c.count;
 #pragma omp simd

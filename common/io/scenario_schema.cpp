@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/packing/packing.hpp"
 #include "common/scenario.hpp"
 
 namespace softgrain::scenario_io {
@@ -51,7 +52,7 @@ const std::vector<KeySpec> class_keys{
     {"aspect_ratio", number, GrainClass{}.aspect_ratio, "",
      "long / short axis of ellipses of the area of the disc; a generator puts each at a random angle inside "
      "a disc of its long axis, and packs those discs",
-     Range{1.0, 3.0}},
+     Range{1.0, most_elongated}},
 };
 
 const std::vector<KeySpec> packing_keys{

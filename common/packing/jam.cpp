@@ -31,19 +31,21 @@ double area_of(const std::vector<double>& radii) {
 }
 
 double fraction_of(const OverlapEnergy& discs) {
-    return area_of(discs.radius()) / (discs.width() * discs.height());
+    return area_of(discs.radius()) / discs.box().area();
 }
 
 void open_to(OverlapEnergy& discs, double fraction) {
     discs.scale(std::sqrt(fraction_of(discs) / fraction));
 }
 
-/// Discs at random between the walls; they may overlap.
-OverlapEnergy placed_at_random(const std::vector<double>& radii, double aspect, double fraction,
+/// Discs at random between the walls, or anywhere in a periodic cell; they may overlap.
+OverlapEnergy placed_at_random(const std::vector<double>& radii, const JamRequest& request, double fraction,
                                Random& random) {
+    const double aspect = request.aspect_ratio;
     const double width = std::sqrt(area_of(radii) / (fraction * aspect));
     const double height = aspect * width;
     const auto coordinate = [&](double r, double length) {
+        if (request.periodic) return random.between(0.0, length);
         return 2.0 * r < length ? random.between(r, length - r) : 0.5 * length;
     };
     std::vector<Vec2> center;
@@ -51,7 +53,7 @@ OverlapEnergy placed_at_random(const std::vector<double>& radii, double aspect, 
         const double x = coordinate(r, width);
         center.emplace_back(x, coordinate(r, height));
     }
-    return {radii, std::move(center), width, height};
+    return {radii, std::move(center), Box{{0.0, width, 0.0, height}, request.periodic}};
 }
 
 /// Compresses free discs until they reach `fraction`; false if they jam before.
@@ -117,23 +119,27 @@ void count_contacts(const std::vector<Pair>& contacts, JammedPacking& result) {
 
 Packing in_units_of(double length, const OverlapEnergy& discs, const std::vector<double>& radii) {
     Packing packing;
-    packing.box = Box{{0.0, length * discs.width(), 0.0, length * discs.height()}};
+    const Box& box = discs.box();
+    packing.box = Box{{0.0, length * box.width(), 0.0, length * box.height()}, box.periodic};
     packing.center = discs.center();
-    for (Vec2& c : packing.center) c *= length;
+    for (Vec2& c : packing.center) {
+        if (box.periodic) c = box.wrapped(c);
+        c *= length;
+    }
     packing.radius = radii;
     return packing;
 }
 
 }  // namespace
 
-JammedPacking jam(const std::vector<double>& radii, double aspect_ratio, Random& random,
-                  std::optional<double> packing_fraction) {
+JammedPacking jam(const std::vector<double>& radii, const JamRequest& request, Random& random) {
     const double mean = std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
     std::vector<double> in_means = radii;
     for (double& r : in_means) r /= mean;
 
-    const double limit = packing_fraction.value_or(no_limit);
-    OverlapEnergy discs = placed_at_random(in_means, aspect_ratio, std::min(first_fraction, limit), random);
+    const auto& packing_fraction = request.packing_fraction;
+    const double limit = packing_fraction ? *packing_fraction / request.grain_share : no_limit;
+    OverlapEnergy discs = placed_at_random(in_means, request, std::min(first_fraction, limit), random);
     // A little beyond the limit, so that opening the box to it leaves no overlap.
     std::vector<Pair> contacts;
     if (!compress(discs, limit * (1.0 + free_overlap))) {
@@ -141,14 +147,14 @@ JammedPacking jam(const std::vector<double>& radii, double aspect_ratio, Random&
         contacts = discs.contacts(weakest_contact * state.mean_overlap);
         discs.scale(1.0 + discs.opening());
         const double jammed_at = fraction_of(discs);
-        if (packing_fraction && jammed_at < *packing_fraction)
+        if (packing_fraction && jammed_at < limit)
             throw InputError(
                 fmt::format("packing.packing_fraction {} cannot be reached: these grains jam at {:.4f}; "
                             "lower it or leave it out",
-                            *packing_fraction, jammed_at));
+                            *packing_fraction, jammed_at * request.grain_share));
         if (packing_fraction) contacts.clear();
     }
-    if (packing_fraction) open_to(discs, *packing_fraction);
+    if (packing_fraction) open_to(discs, limit);
 
     JammedPacking result;
     result.packing = in_units_of(mean, discs, radii);

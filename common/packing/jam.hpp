@@ -1,5 +1,5 @@
 #pragma once
-// Frictionless discs between four walls, compressed to the point where they jam.
+// Frictionless discs between four walls or in a periodic cell, compressed to the point where they jam.
 #include <optional>
 #include <vector>
 
@@ -8,9 +8,19 @@
 
 namespace softgrain {
 
+/// What is to be made, beside the radii.
+struct JamRequest {
+    double aspect_ratio = 1.0;  ///< height / width
+    /// Stop at this packing fraction of the grains, below jamming.
+    std::optional<double> packing_fraction = {};
+    bool periodic = false;
+    double grain_share =
+        1.0;  ///< area of the grains / area of the discs, less than 1 for grains inside discs
+};
+
 struct JammedPacking {
     Packing packing;                   ///< no overlaps; box [0, width] x [0, height]
-    double packing_fraction = 0.0;     ///< of `packing`
+    double packing_fraction = 0.0;     ///< of the discs
     double coordination_number = 0.0;  ///< 2 N_gg / N, without rattlers
     int contacts = 0;                  ///< with grains and walls, without those of rattlers
     int rattlers = 0;                  ///< discs with fewer than 3 contacts, removed repeatedly
@@ -19,11 +29,11 @@ struct JammedPacking {
 /// Largest overlap [mean radius] of the jammed discs before the box is opened until they only touch.
 inline constexpr double jamming_tolerance = 5e-7;
 
-/// Places the discs at random, compresses them to rest in small steps, then closes in on the jamming point of
-/// a box with this height / width. With `packing_fraction` it stops there, below jamming. The result has no
-/// overlaps; without `packing_fraction` it is below jamming by not more than a linear strain of
-/// jamming_tolerance mean radius / smallest radius. Throws InputError if it jams before `packing_fraction`.
-JammedPacking jam(const std::vector<double>& radii, double aspect_ratio, Random& random,
-                  std::optional<double> packing_fraction = std::nullopt);
+/// Places the discs at random, compresses them to rest in small steps, then closes in on the jamming point.
+/// With `packing_fraction` it stops there, below jamming. The result has no overlaps; without
+/// `packing_fraction` it is below jamming by not more than a linear strain of jamming_tolerance mean radius /
+/// smallest radius. Throws InputError if it jams before `packing_fraction`, or if a periodic cell is too
+/// small for these discs.
+JammedPacking jam(const std::vector<double>& radii, const JamRequest& request, Random& random);
 
 }  // namespace softgrain

@@ -1,6 +1,11 @@
 #include "common/packing/make_packing.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "common/errors.hpp"
+#include "common/packing/grain_classes.hpp"
 #include "common/packing/jam.hpp"
 #include "common/packing/packing_csv.hpp"
 #include "common/packing/size_laws.hpp"
@@ -12,22 +17,43 @@ void scale_to(Packing& packing, double width, double height) {
     const double factor = width / packing.box.width();
     for (Vec2& c : packing.center) c *= factor;
     for (double& r : packing.radius) r *= factor;
-    packing.box = Box{{0.0, width, 0.0, height}};
+    packing.box = Box{{0.0, width, 0.0, height}, packing.box.periodic};
+}
+
+Packing from_file(const Scenario& scenario) {
+    const BoxSpec& box = scenario.box;
+    if (!box.width || !box.height) throw InputError("packing.path needs box.width and box.height");
+    const std::filesystem::path& path = *scenario.packing.path;
+    Packing packing = read_packing_csv(path, Box{{0.0, *box.width, 0.0, *box.height}, box.periodic},
+                                       scenario.class_count());
+    if (scenario.has_ellipses() && packing.aspect_ratio.empty())
+        throw InputError(
+            fmt::format("{}: grain_class.aspect_ratio needs columns aspect_ratio and angle in a "
+                        "packing file",
+                        path.string()));
+    if (packing.grain_class.empty()) packing.grain_class = draw_classes(scenario, packing.size());
+    return packing;
 }
 
 }  // namespace
 
 Packing make_packing(const Scenario& scenario) {
+    if (scenario.packing.path) return from_file(scenario);
     const BoxSpec& box = scenario.box;
     const bool sized = box.width && box.height;
-    if (scenario.packing.path) {
-        if (!sized) throw InputError("packing.path needs box.width and box.height");
-        return read_packing_csv(*scenario.packing.path, Box{{0.0, *box.width, 0.0, *box.height}});
-    }
     Random random(scenario.seed);
     const std::vector<double> radii = draw_radii(scenario.packing, random);
-    const double aspect_ratio = sized ? *box.height / *box.width : 1.0;
-    Packing packing = jam(radii, aspect_ratio, random, scenario.packing.packing_fraction).packing;
+    const std::vector<std::uint8_t> classes = draw_classes(scenario, radii.size());
+    const std::vector<double> elongation = aspect_ratios(scenario, classes, radii.size());
+    const JamRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
+                             .packing_fraction = scenario.packing.packing_fraction,
+                             .periodic = box.periodic,
+                             .grain_share = share_of_discs_around(radii, elongation)};
+    Packing packing = jam(radii_of_discs_around(radii, elongation), request, random).packing;
+    packing.radius = radii;
+    packing.grain_class = classes;
+    packing.aspect_ratio = elongation;
+    if (!elongation.empty()) packing.angle = draw_angles(scenario, radii.size());
     if (sized) scale_to(packing, *box.width, *box.height);
     return packing;
 }

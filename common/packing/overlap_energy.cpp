@@ -18,9 +18,8 @@ constexpr int delay = 5;
 
 }  // namespace
 
-OverlapEnergy::OverlapEnergy(std::vector<double> radius, std::vector<Vec2> center, double width,
-                             double height)
-    : radius_(std::move(radius)), center_(std::move(center)), width_(width), height_(height) {
+OverlapEnergy::OverlapEnergy(std::vector<double> radius, std::vector<Vec2> center, const Box& box)
+    : radius_(std::move(radius)), center_(std::move(center)), box_(box) {
     velocity_.assign(center_.size(), Vec2::Zero());
     force_.assign(center_.size(), Vec2::Zero());
     const double mean =
@@ -30,16 +29,23 @@ OverlapEnergy::OverlapEnergy(std::vector<double> radius, std::vector<Vec2> cente
 }
 
 void OverlapEnergy::scale(double factor) {
-    width_ *= factor;
-    height_ *= factor;
+    box_.position[1] *= factor;
+    box_.position[3] *= factor;
     for (Vec2& c : center_) c *= factor;
 }
 
 void OverlapEnergy::update_neighbors() {
-    if (!neighbors_.stale(center_, radius_)) return;
+    if (!neighbors_.stale(center_, radius_, box_)) return;
     const double mean =
         std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(radius_.size());
-    neighbors_.build(center_, radius_, skin * mean);
+    neighbors_.build(center_, radius_, skin * mean, box_);
+}
+
+/// From i to j of a pair of the list.
+Vec2 OverlapEnergy::branch(std::size_t pair) const {
+    const Pair& p = neighbors_.pairs()[pair];
+    const Vec2 direct = center_[static_cast<std::size_t>(p.j)] - center_[static_cast<std::size_t>(p.i)];
+    return box_.periodic ? direct + box_.image(neighbors_.images()[pair]) : direct;
 }
 
 OverlapEnergy::State OverlapEnergy::compute_forces() {
@@ -62,23 +68,25 @@ OverlapEnergy::State OverlapEnergy::compute_forces() {
             force[axis] += sign * overlap;
             add(overlap, distance);
         };
-        against_wall(c.x(), 0, 1.0);
-        against_wall(width_ - c.x(), 0, -1.0);
-        against_wall(c.y(), 1, 1.0);
-        against_wall(height_ - c.y(), 1, -1.0);
+        if (!box_.periodic) {
+            against_wall(c.x(), 0, 1.0);
+            against_wall(box_.width() - c.x(), 0, -1.0);
+            against_wall(c.y(), 1, 1.0);
+            against_wall(box_.height() - c.y(), 1, -1.0);
+        }
         force_[i] = force;
     }
-    for (const Pair& pair : neighbors_.pairs()) {
-        const auto i = static_cast<std::size_t>(pair.i);
-        const auto j = static_cast<std::size_t>(pair.j);
-        const Vec2 branch = center_[j] - center_[i];
+    for (std::size_t k = 0; k < neighbors_.pairs().size(); ++k) {
+        const auto i = static_cast<std::size_t>(neighbors_.pairs()[k].i);
+        const auto j = static_cast<std::size_t>(neighbors_.pairs()[k].j);
+        const Vec2 to_j = branch(k);
         const double reach = radius_[i] + radius_[j];
-        const double squared = branch.squaredNorm();
+        const double squared = to_j.squaredNorm();
         if (squared >= reach * reach) continue;
         const double distance = std::sqrt(squared);
         const double overlap = reach - distance;
         // Two centres on one point part along x.
-        const Vec2 normal = distance > 0.0 ? Vec2(branch / distance) : Vec2(1.0, 0.0);
+        const Vec2 normal = distance > 0.0 ? Vec2(to_j / distance) : Vec2(1.0, 0.0);
         force_[i] -= overlap * normal;
         force_[j] += overlap * normal;
         add(overlap, distance);
@@ -132,16 +140,18 @@ OverlapEnergy::State OverlapEnergy::relax(double balance, double clear, int most
 
 template <class Visit>
 void OverlapEnergy::each_contact(const Visit& visit) const {
-    for (const Pair& pair : neighbors_.pairs()) {
-        const auto i = static_cast<std::size_t>(pair.i);
-        const auto j = static_cast<std::size_t>(pair.j);
-        const double distance = (center_[j] - center_[i]).norm();
-        visit(pair, radius_[i] + radius_[j] - distance, distance);
+    for (std::size_t k = 0; k < neighbors_.pairs().size(); ++k) {
+        const Pair& pair = neighbors_.pairs()[k];
+        const double distance = branch(k).norm();
+        visit(
+            pair,
+            radius_[static_cast<std::size_t>(pair.i)] + radius_[static_cast<std::size_t>(pair.j)] - distance,
+            distance);
     }
-    const Box box{{0.0, width_, 0.0, height_}};
+    if (box_.periodic) return;
     for (std::size_t i = 0; i < center_.size(); ++i)
         for (int wall = 0; wall < 4; ++wall) {
-            const double distance = box.distance(wall, center_[i]);
+            const double distance = box_.distance(wall, center_[i]);
             visit(Pair{static_cast<int>(i), -1 - wall}, radius_[i] - distance, distance);
         }
 }

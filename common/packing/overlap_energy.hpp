@@ -1,5 +1,6 @@
 #pragma once
-// Discs that repel each other and the walls by U = sum overlap^2 / 2, brought to rest by FIRE.
+// Discs that repel each other, and the walls if there are any, by U = sum overlap^2 / 2, brought to rest by
+// FIRE.
 #include <span>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace softgrain {
 
-/// Discs in a box [0, width] x [0, height] that can be scaled. Lengths in any unit near the mean radius.
+/// Discs in a box [0, width] x [0, height] that can be scaled, between walls or periodic. Lengths in any unit
+/// near the mean radius.
 class OverlapEnergy {
   public:
-    OverlapEnergy(std::vector<double> radius, std::vector<Vec2> center, double width, double height);
+    OverlapEnergy(std::vector<double> radius, std::vector<Vec2> center, const Box& box);
 
     /// Scales the box and all centres about the origin.
     void scale(double factor);
@@ -39,19 +41,20 @@ class OverlapEnergy {
     const std::vector<Vec2>& center() const { return center_; }
     const std::vector<double>& radius() const { return radius_; }
     double smallest_radius() const;
-    double width() const { return width_; }
-    double height() const { return height_; }
+    /// Centres may lie outside a periodic box.
+    const Box& box() const { return box_; }
 
   private:
     State compute_forces();
     void update_neighbors();
     /// visit(pair, overlap, distance) for every candidate, overlapping or not.
+    Vec2 branch(std::size_t pair) const;
     template <class Visit>
     void each_contact(const Visit& visit) const;
 
     std::vector<double> radius_, mass_;
     std::vector<Vec2> center_, velocity_, force_;
-    double width_, height_;
+    Box box_;
     NeighborList neighbors_;
 };
 

@@ -8,6 +8,9 @@
 
 namespace softgrain {
 
+/// Largest aspect ratio of undeformed grains.
+inline constexpr double most_elongated = 3.0;
+
 /// n discs or ellipses in a box. `frame` turns (or mirrors) the inner structure of a grain, for methods that
 /// have one.
 struct Packing {

@@ -2,21 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/errors.hpp"
 #include "common/neighbors.hpp"
+#include "common/packing/overlap.hpp"
 
 namespace softgrain {
 namespace {
 
 constexpr std::size_t most_discs = 1'000'000;
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 28;
+constexpr std::array<std::string_view, 3> more_columns{"class", "aspect_ratio", "angle"};
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blank = " \t\r";
@@ -27,7 +32,8 @@ std::string_view trimmed(std::string_view text) {
 
 class Reader {
   public:
-    Reader(const std::filesystem::path& path, const Box& box) : path_(path), box_(box) {}
+    Reader(const std::filesystem::path& path, const Box& box, std::size_t classes)
+        : path_(path), box_(box), classes_(classes) {}
 
     Packing read() {
         std::ifstream file(path_);
@@ -43,9 +49,9 @@ class Reader {
             const std::string_view content = trimmed(text);
             if (content.empty() || content.front() == '#') continue;
             if (header_seen)
-                add_disc(content);
+                add_grain(content);
             else
-                check_header(content);
+                read_header(content);
             header_seen = true;
         }
         if (file.bad()) fail(line_, "reading stopped early");
@@ -65,15 +71,40 @@ class Reader {
         throw InputError(fmt::format("{}:{}: {}", path_.string(), line, why));
     }
 
-    void check_header(std::string_view content) const {
-        std::string plain;
-        for (const char c : content)
-            if (c != ' ' && c != '\t') plain += c;
-        if (plain != "x,y,r") fail(line_, "expected the header x,y,r");
+    void read_header(std::string_view content) {
+        const std::vector<std::string_view> names = fields_of(content);
+        static constexpr std::array<std::string_view, 3> first{"x", "y", "r"};
+        if (names.size() < first.size() || !std::equal(first.begin(), first.end(), names.begin()))
+            fail(line_, "expected the header x,y,r");
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            if (k >= first.size() &&
+                std::find(more_columns.begin(), more_columns.end(), names[k]) == more_columns.end())
+                fail(line_, fmt::format("unknown column '{}', known after x,y,r are {}",
+                                        names[k].substr(0, 40), fmt::join(more_columns, ", ")));
+            if (column(names[k])) fail(line_, fmt::format("column '{}' stands twice", names[k]));
+            columns_.emplace_back(names[k]);
+        }
+        if (column("aspect_ratio").has_value() != column("angle").has_value())
+            fail(line_, "columns aspect_ratio and angle need each other");
     }
 
-    double number(std::string_view field) const {
-        const std::string_view text = trimmed(field);
+    std::optional<std::size_t> column(std::string_view name) const {
+        const auto it = std::find(columns_.begin(), columns_.end(), name);
+        if (it == columns_.end()) return std::nullopt;
+        return static_cast<std::size_t>(it - columns_.begin());
+    }
+
+    static std::vector<std::string_view> fields_of(std::string_view content) {
+        std::vector<std::string_view> fields;
+        for (std::size_t start = 0; start <= content.size();) {
+            const std::size_t end = std::min(content.find(',', start), content.size());
+            fields.push_back(trimmed(content.substr(start, end - start)));
+            start = end + 1;
+        }
+        return fields;
+    }
+
+    double number(std::string_view text) const {
         double value = 0.0;
         const char* const end = text.data() + text.size();
         const bool plus = text.starts_with('+') && !text.starts_with("+-");  // from_chars knows only minus
@@ -83,67 +114,113 @@ class Reader {
         return value;
     }
 
-    void add_disc(std::string_view content) {
-        std::array<double, 3> value{};
-        std::size_t fields = 0;
-        for (std::size_t start = 0; start <= content.size(); ++fields) {
-            const std::size_t end = std::min(content.find(',', start), content.size());
-            if (fields < value.size()) value[fields] = number(content.substr(start, end - start));
-            start = end + 1;
+    void add_grain(std::string_view content) {
+        std::vector<double> value;
+        for (const std::string_view field : fields_of(content)) {
+            if (value.size() < columns_.size())
+                value.push_back(number(field));
+            else
+                value.push_back(0.0);  // only counted
         }
-        if (fields != value.size()) fail(line_, fmt::format("expected 3 values x,y,r, got {}", fields));
-        const Vec2 center{value[0], value[1]};
+        if (value.size() != columns_.size())
+            fail(line_, fmt::format("expected {} values {}, got {}", columns_.size(),
+                                    fmt::join(columns_, ","), value.size()));
         const double radius = value[2];
         if (!(radius > 0.0)) fail(line_, fmt::format("r must be > 0, got {}", radius));
         if (packing_.size() == most_discs) fail(line_, fmt::format("more than {} discs", most_discs));
-        for (int wall = 0; wall < 4; ++wall) {
-            const double beyond = radius - box_.distance(wall, center);
-            if (beyond > tolerated_overlap * radius)
-                fail(line_, fmt::format("the disc reaches {:.6g} m beyond the {} wall of the box "
-                                        "0 <= x <= {}, 0 <= y <= {}: check box.width and box.height",
-                                        beyond, wall_names[static_cast<std::size_t>(wall)], box_.width(),
-                                        box_.height()));
-        }
-        packing_.center.push_back(center);
+        packing_.center.emplace_back(value[0], value[1]);
         packing_.radius.push_back(radius);
         line_of_.push_back(line_);
+        if (const auto k = column("class")) add_class(value[*k]);
+        if (const auto k = column("aspect_ratio")) {
+            if (!(value[*k] >= 1.0 && value[*k] <= most_elongated))
+                fail(line_,
+                     fmt::format("aspect_ratio must be >= 1 and <= {}, got {}", most_elongated, value[*k]));
+            packing_.aspect_ratio.push_back(value[*k]);
+            packing_.angle.push_back(value[column("angle").value()]);
+        }
+        box_.periodic ? wrap_last() : check_walls();
     }
 
+    void add_class(double value) {
+        if (!(value >= 0.0 && value < static_cast<double>(classes_) && value == std::floor(value)))
+            fail(line_,
+                 fmt::format("class must be a whole number from 0 to {}, the last [[grain_class]], got {}",
+                             classes_ - 1, value));
+        packing_.grain_class.push_back(static_cast<std::uint8_t>(value));
+    }
+
+    void wrap_last() {
+        Vec2& center = packing_.center.back();
+        const Image image = box_.image_of(center);
+        if (std::abs(image.x) > 1 || std::abs(image.y) > 1)
+            fail(line_, fmt::format("the centre lies more than a cell away from the periodic cell "
+                                    "0 <= x <= {}, 0 <= y <= {}: check box.width and box.height",
+                                    box_.width(), box_.height()));
+        center -= box_.image(image);
+    }
+
+    void check_walls() const {
+        const std::size_t g = packing_.size() - 1;
+        const Mat2 shape = packing_.shape_of(g);
+        for (int wall = 0; wall < 4; ++wall) {
+            const double reach =
+                packing_.aspect_ratio.empty() ? packing_.radius[g] : shape.row(wall_axis(wall)).norm();
+            const double beyond = reach - box_.distance(wall, packing_.center[g]);
+            if (beyond > tolerated_overlap * packing_.radius[g])
+                fail(line_, fmt::format("the {} reaches {:.6g} m beyond the {} wall of the box "
+                                        "0 <= x <= {}, 0 <= y <= {}: check box.width and box.height",
+                                        grain_word(), beyond, wall_names[static_cast<std::size_t>(wall)],
+                                        box_.width(), box_.height()));
+        }
+    }
+
+    std::string_view grain_word() const { return packing_.aspect_ratio.empty() ? "disc" : "ellipse"; }
+
     void check_overlaps() const {
+        std::vector<double> reach;
+        for (std::size_t g = 0; g < packing_.size(); ++g) reach.push_back(packing_.reach(g));
         NeighborList near;
-        near.build(packing_.center, packing_.radius, 1e-3 * packing_.smallest_radius());
+        near.build(packing_.center, reach, 1e-3 * packing_.smallest_radius(), box_);
         for (const Pair& pair : near.pairs()) {
             const auto i = static_cast<std::size_t>(pair.i);
             const auto j = static_cast<std::size_t>(pair.j);
-            const double sum = packing_.radius[i] + packing_.radius[j];
-            const double overlap = sum - (packing_.center[j] - packing_.center[i]).norm();
-            if (overlap > tolerated_overlap * sum)
+            const double overlap = relative_overlap(packing_, i, j);
+            if (overlap > tolerated_overlap)
                 fail(line_of_[j],
-                     fmt::format("the disc overlaps the one of line {} by {:.3g} % of their radii, at "
+                     fmt::format("the {} overlaps the one of line {} by {:.3g} % of their radii, at "
                                  "most {:.3g} % is accepted",
-                                 line_of_[i], 100.0 * overlap / sum, 100.0 * tolerated_overlap));
+                                 grain_word(), line_of_[i], 100.0 * overlap, 100.0 * tolerated_overlap));
         }
     }
 
     const std::filesystem::path& path_;
     const Box& box_;
+    std::size_t classes_;
     int line_ = 0;
+    std::vector<std::string> columns_;
     Packing packing_;
     std::vector<int> line_of_;
 };
 
 }  // namespace
 
-Packing read_packing_csv(const std::filesystem::path& path, const Box& box) {
-    return Reader(path, box).read();
+Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes) {
+    return Reader(path, box, classes).read();
 }
 
 void write_packing_csv(const std::filesystem::path& path, const Packing& packing) {
-    std::string text =
-        fmt::format("# box.width = {}, box.height = {}\nx,y,r\n", packing.box.width(), packing.box.height());
-    for (std::size_t k = 0; k < packing.size(); ++k)
-        text += fmt::format("{},{},{}\n", packing.center[k].x() - packing.box.position[0],
+    const bool has_classes = !packing.grain_class.empty(), has_ellipses = !packing.aspect_ratio.empty();
+    std::string text = fmt::format("# box.width = {}, box.height = {}{}\nx,y,r{}{}\n", packing.box.width(),
+                                   packing.box.height(), packing.box.periodic ? ", box.periodic = true" : "",
+                                   has_classes ? ",class" : "", has_ellipses ? ",aspect_ratio,angle" : "");
+    for (std::size_t k = 0; k < packing.size(); ++k) {
+        text += fmt::format("{},{},{}", packing.center[k].x() - packing.box.position[0],
                             packing.center[k].y() - packing.box.position[2], packing.radius[k]);
+        if (has_classes) text += fmt::format(",{}", packing.grain_class[k]);
+        if (has_ellipses) text += fmt::format(",{},{}", packing.aspect_ratio[k], packing.angle[k]);
+        text += '\n';
+    }
     std::ofstream file(path, std::ios::binary);
     file << text;
     file.close();

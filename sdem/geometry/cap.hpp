@@ -11,30 +11,28 @@ struct UnitCap {
     double area;        ///< psi - sin(psi) cos(psi)
 };
 
-/// area / (q y) for y = sin^2(psi/2) = q^2 / (1 + q^2) up to 1/2, a half disc; relative error of the
-/// polynomial 3e-16. It interpolates at Chebyshev's nodes; (1 - y)^(3/2) is the nearest singularity.
-SOFTGRAIN_INLINE double cap_series(double y) {
+/// area / q in y4 = 4 sin^2(psi/2) = 4 q^2 / (1 + q^2), up to largest_y4 (psi = 75 degrees); relative error
+/// of the polynomial 1e-16. It interpolates at Chebyshev's nodes; the nearest singularity is (4 - y4)^(3/2).
+constexpr double largest_y4 = 1.5;
+SOFTGRAIN_INLINE double cap_series(double y4) {
     // Even and odd powers apart: two short chains instead of a long one.
-    const double x = y * y;
-    double even = 7.229381159767219;
-    even = even * x + 11.872872742593808;
-    even = even * x + 3.993665590020584;
-    even = even * x + 0.372448562995063;
-    even = even * x - 0.019252677483263623;
-    even = even * x - 0.0453545372459104;
-    even = even * x - 0.07388144294817806;
-    even = even * x - 0.15238095231980814;
-    even = even * x + 5.333333333333334;
-    double odd = -2.1042157813198292;
-    odd = odd * x - 11.842033330287185;
-    odd = odd * x - 8.166179920627583;
-    odd = odd * x - 1.478222515645873;
-    odd = odd * x - 0.1077232692175664;
-    odd = odd * x - 0.038818516992148715;
-    odd = odd * x - 0.05683829521245594;
-    odd = odd * x - 0.1015873067701723;
-    odd = odd * x - 4.266666666666952;
-    return even + y * odd;
+    const double x = y4 * y4;
+    double even = -2.778903440759896e-10;
+    even = even * x - 7.514746495423273e-09;
+    even = even * x - 3.002360123607423e-08;
+    even = even * x - 1.3935429522961682e-07;
+    even = even * x - 2.7787384339136243e-06;
+    even = even * x - 7.215022667267587e-05;
+    even = even * x - 0.002380952381730921;
+    even = even * x + 1.3333333333333333;
+    double odd = 1.9183142946809415e-09;
+    odd = odd * x + 1.5011719693931787e-08;
+    odd = odd * x - 1.524276666651538e-10;
+    odd = odd * x - 5.612400472695596e-07;
+    odd = odd * x - 1.3874071012159108e-05;
+    odd = odd * x - 0.0003968253816404794;
+    odd = odd * x - 0.26666666666665095;
+    return y4 * (even + y4 * odd);
 }
 
 /// Relative accuracy 1e-14 for every q >= 0.
@@ -42,12 +40,12 @@ inline UnitCap unit_cap(double q) {
     const double z = q * q, w = 1.0 + z;
     const double half_sine = q / w;  // sin(psi) / 2
     const double sine_cosine = 2.0 * half_sine * ((1.0 - z) / w);
-    if (z > 1.0) {
+    const double y4 = 4.0 * q * half_sine;
+    if (y4 > largest_y4) {
         const double psi = 2.0 * std::atan(q);
         return {psi, psi - sine_cosine};
     }
-    const double y = q * half_sine;
-    const double area = q * y * cap_series(y);
+    const double area = q * cap_series(y4);
     return {area + sine_cosine, area};
 }
 

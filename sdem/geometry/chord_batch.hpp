@@ -24,7 +24,7 @@ struct alignas(64) ChordBatch {
     alignas(64) Lanes cover_a{}, cover_b{};  ///< psi: half opening angle of each cap in its unit frame
     alignas(64) Lanes depth{};               ///< sum of both depths beyond the chord [m]
     alignas(64)
-        Lanes sound{};  ///< 1; or 0: ask chord_of (cold start, opening, four points, more than half a disc)
+        Lanes sound{};  ///< 1; or 0: ask chord_of (cold start, opening, four points, a cap beyond 75 degrees)
     int count = 0;
 };
 

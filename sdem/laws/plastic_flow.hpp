@@ -3,6 +3,8 @@
 // G = (Fp^T Fp)^-1, so that be = F G F^T (Simo and Hughes, Computational Inelasticity, section 9.2).
 #include <cmath>
 
+#include "common/simd.hpp"
+
 #include "sdem/tensor.hpp"
 
 namespace softgrain::sdem {
@@ -18,7 +20,7 @@ struct PlasticFlow {
 };
 
 /// F G F^T / det F: symmetric with determinant 1.
-inline PlasticState elastic_strain(const Tensor& F, const PlasticState& G) {
+SOFTGRAIN_INLINE PlasticState elastic_strain(const Tensor& F, const PlasticState& G) {
     const double per_area = 1.0 / F.det();
     const double ux = F.xx * G.xx + F.xy * G.xy, uy = F.xx * G.xy + F.xy * G.yy;
     const double vx = F.yx * G.xx + F.yy * G.xy, vy = F.yx * G.xy + F.yy * G.yy;
@@ -29,7 +31,8 @@ inline PlasticState elastic_strain(const Tensor& F, const PlasticState& G) {
 /// Kirchhoff stress of the deviator is mu dev(be/J), with principal values +- mu (l - 1/l)/2, l and 1/l those
 /// of be/J. Beyond the yield stress l is set back to where it is reached: an exact radial return. `yield` is
 /// the largest shear stress [N/m].
-inline PlasticFlow return_to_yield(const Tensor& F, const PlasticState& G, double mu, double yield) {
+SOFTGRAIN_INLINE PlasticFlow return_to_yield(const Tensor& F, const PlasticState& G, double mu,
+                                             double yield) {
     const PlasticState b = elastic_strain(F, G);
     const double half_trace = 0.5 * (b.xx + b.yy);  // (l + 1/l)/2 >= 1
     const double half_difference = 0.5 * (b.xx - b.yy);
@@ -50,11 +53,12 @@ inline PlasticFlow return_to_yield(const Tensor& F, const PlasticState& G, doubl
     const PlasticState flowed{per_area * (ux * C.xx + uy * C.yx), per_area * (ux * C.xy + uy * C.yy),
                               per_area * (vx * C.xy + vy * C.yy)};
     // Released at fixed F: w = mu (half trace - 1).
-    return {flows ? flowed : G, mu * (half_trace - new_half_trace)};
+    return {{flows ? flowed.xx : G.xx, flows ? flowed.xy : G.xy, flows ? flowed.yy : G.yy},
+            mu * (half_trace - new_half_trace)};
 }
 
 /// First Piola-Kirchhoff stress of w = mu/2 (tr(be)/J - 2).
-inline Tensor elastic_deviator(const Tensor& F, const PlasticState& G, double mu) {
+SOFTGRAIN_INLINE Tensor elastic_deviator(const Tensor& F, const PlasticState& G, double mu) {
     const PlasticState b = elastic_strain(F, G);
     const Tensor FG{F.xx * G.xx + F.xy * G.xy, F.xx * G.xy + F.xy * G.yy, F.yx * G.xx + F.yy * G.xy,
                     F.yx * G.xy + F.yy * G.yy};

@@ -67,6 +67,39 @@ TEST(Stress, WallsAndLoveWeberAgreeForOneGrain) {
     EXPECT_DOUBLE_EQ(unbalanced_force(view), 0.0);
 }
 
+/// Two discs that touch side by side, then across the top edge of a tilted cell.
+TEST(Stress, LoveWeberTakesTheNearestImage) {
+    const Box cell{{0.0, 4.0, 0.0, 2.0}, true, 8.3};  // two flips and 0.3
+    const std::vector<Vec2> x{{0.5, 1.0}, {2.0, 1.0}};
+    std::vector<GrainContact> contacts{{0, 1, {1.5, 1.0}, {1.0, 0.0}, {-3.0, 0.5}, 0.0}};
+    GrainView view;
+    view.box = cell;
+    view.centroid = x;
+    view.contacts = contacts;
+    EXPECT_NEAR((branch(view, contacts[0]) - Vec2(1.5, 0.0)).norm(), 0.0, 1e-14);
+    EXPECT_NEAR(love_weber_stress(view)(0, 0), 3.0 * 1.5 / 8.0, 1e-14);
+    EXPECT_NEAR(love_weber_stress(view)(1, 0), -0.5 * 1.5 / 8.0, 1e-14);
+    // Across the top: j's image (tilt reduced 0.3, 2) above.
+    const std::vector<Vec2> tall{{0.5, 1.9}, {0.9, 0.1}};
+    contacts[0] = {0, 1, {0.6, 2.0}, {0.0, 1.0}, {0.0, -2.0}, 0.0};
+    view.centroid = tall;
+    EXPECT_NEAR((branch(view, contacts[0]) - Vec2(0.7, 0.2)).norm(), 0.0, 1e-13);
+}
+
+TEST(Stress, OfTheBoundaryIsSymmetric) {
+    const std::array<Vec2, 4> on_wall{Vec2{-4.0, 1.0}, Vec2{4.0, 3.0}, Vec2{0.0, -2.0}, Vec2{6.0, 2.0}};
+    const Box box{{0.0, 3.0, 0.0, 2.0}};
+    const Mat2 walls = boundary_stress(on_wall, Mat2::Constant(9.0), box);
+    EXPECT_DOUBLE_EQ(walls(0, 0), 2.0);
+    EXPECT_DOUBLE_EQ(walls(1, 1), 2.0 / 3.0);
+    EXPECT_DOUBLE_EQ(walls(0, 1), 0.5 * (0.5 * 2.0 / 2.0 + 0.5 * 6.0 / 3.0));
+    EXPECT_EQ(walls(1, 0), walls(0, 1));
+    Box cell = box;
+    cell.periodic = true;
+    const Mat2 given = (Mat2() << 1.0, 2.0, 4.0, 5.0).finished();
+    EXPECT_EQ(boundary_stress(on_wall, given, cell), (Mat2() << 1.0, 3.0, 3.0, 5.0).finished());
+}
+
 TEST(Stress, UnbalancedForceIsNetOverContactForce) {
     const std::vector<Vec2> x{{0.0, 0.0}, {2.0, 0.0}};
     const std::vector<GrainContact> contacts{{0, 1, {1.0, 0.0}, {1.0, 0.0}, {-4.0, 0.0}, 0.0}};

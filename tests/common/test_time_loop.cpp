@@ -149,6 +149,170 @@ TEST(TimeLoop, StagesFollowOneAnother) {
     EXPECT_EQ(run.state().history.size(), 1U + 2U + 10U + 2U);
 }
 
+Packing cell_of_four() {
+    Packing p = square_of_four();
+    p.box.periodic = true;
+    return p;
+}
+
+TEST(TimeLoop, ACellShrinksAsABoxDoesAndTellsItsStress) {
+    LoadingStage side = isotropic(0.1);
+    side.kind = LoadingKind::oedometric;
+    side.wall = Wall::top;
+    for (const LoadingStage& stage : {isotropic(0.1), side}) {
+        const Scenario scenario = with_stages({stage});
+        AffineSolver walls(square_of_four()), cell(cell_of_four());
+        TimeLoop between_walls(scenario, square_of_four(), walls, {});
+        TimeLoop in_cell(scenario, cell_of_four(), cell, {});
+        between_walls.go(never);
+        in_cell.go(never);
+        ASSERT_EQ(in_cell.state().history.size(), between_walls.state().history.size());
+        for (std::size_t k = 0; k < in_cell.state().history.size(); ++k)
+            for (const char* column : {"axial_strain", "box_width", "box_height", "stress_xx", "stress_yy",
+                                       "mean_stress", "deviatoric_stress"})
+                // The affine grains push alike on walls and cell; a mean of forces is not one of stresses.
+                EXPECT_NEAR(value(in_cell.state(), k, column), value(between_walls.state(), k, column), 2e-3)
+                    << column << " of sample " << k;
+        EXPECT_EQ(in_cell.state().box.tilt, 0.0);
+    }
+}
+
+TEST(TimeLoop, ShearKeepsTheAreaAndSamplesAtEqualShearStrain) {
+    LoadingStage shear;
+    shear.kind = LoadingKind::shear;
+    shear.until_shear = 1.1;  // more than the width: the loop's tilt is not reduced
+    shear.strain_rate = 0.3;
+    LoadingStage back = shear;
+    back.until_shear = -0.1;
+    back.reverse = true;
+    Scenario scenario = with_stages({shear, back});
+    scenario.sampling.strain_interval = 0.1;
+    AffineSolver solver(cell_of_four());
+    TimeLoop run(scenario, cell_of_four(), solver, {});
+    run.go(never);
+    const RunState& state = run.state();
+    ASSERT_EQ(state.history.size(), 1U + 11U + 12U);
+    for (std::size_t k = 0; k < state.history.size(); ++k) {
+        const double n = static_cast<double>(k);
+        const double expected = k <= 11 ? 0.1 * n : 1.1 - 0.1 * (n - 11.0);
+        EXPECT_NEAR(value(state, k, "shear_strain"), expected, 1e-11);
+        EXPECT_EQ(value(state, k, "box_width"), 1.0);
+        EXPECT_EQ(value(state, k, "box_height"), 2.0);
+        EXPECT_EQ(value(state, k, "stress_yy"), 0.0);
+    }
+    EXPECT_NEAR(state.time, 1.1 / 0.3 + 1.2 / 0.3, 1e-9);
+    // Mean over the last quarter of the sample interval before 1.1.
+    EXPECT_NEAR(value(state, 11, "stress_xy"), -(1.1 - 0.5 * 0.025), 3e-3) << "a step is 3e-3";
+}
+
+TEST(TimeLoop, AVelocityGradientIsFollowedExactlyWhateverTheTimeStep) {
+    LoadingStage stage;
+    stage.kind = LoadingKind::gradient;
+    stage.gradient_xx = -0.2;
+    stage.gradient_xy = 0.5;
+    stage.gradient_yy = 0.1;
+    stage.duration = 1.5;
+    Packing packing = cell_of_four();
+    packing.box.tilt = 0.3;
+    for (const double dt : {0.05, 0.013}) {
+        const Scenario scenario = with_stages({stage});
+        AffineSolver solver(packing);
+        solver.time_step = dt;
+        TimeLoop run(scenario, packing, solver, {});
+        run.go(never);
+        const Box& box = run.state().box;
+        const double t = 1.5, xx = std::exp(-0.2 * t), yy = std::exp(0.1 * t);
+        EXPECT_NEAR(box.width(), 1.0 * xx, 1e-12);
+        EXPECT_NEAR(box.height(), 2.0 * yy, 1e-12);
+        EXPECT_NEAR(box.tilt, 0.3 * xx + 2.0 * 0.5 * (yy - xx) / 0.3, 1e-12);
+        EXPECT_NEAR(0.5 * (box.position[0] + box.position[1]), 0.5, 1e-12) << "the middle stays";
+        // Samples every 0.02 of the largest rate, 0.5: 37 whole intervals of 0.04 s and the end.
+        EXPECT_EQ(run.state().history.size(), 1U + 37U + 1U);
+        EXPECT_NEAR(run.state().time, t, 1e-9);
+    }
+}
+
+TEST(TimeLoop, EqualGradientsStretchWithoutAnIndeterminateForm) {
+    LoadingStage stage;
+    stage.kind = LoadingKind::gradient;
+    stage.gradient_xx = stage.gradient_yy = -0.2;
+    stage.gradient_xy = 0.5;
+    stage.duration = 1.0;
+    const Scenario scenario = with_stages({stage});
+    AffineSolver solver(cell_of_four());
+    TimeLoop run(scenario, cell_of_four(), solver, {});
+    run.go(never);
+    EXPECT_NEAR(run.state().box.tilt, 2.0 * 0.5 * std::exp(-0.2), 1e-12);
+}
+
+TEST(TimeLoop, ReverseReachesItsEndsFromAbove) {
+    LoadingStage back = isotropic(-0.02);
+    back.reverse = true;
+    const Scenario loop = with_stages({isotropic(0.06), back});
+    AffineSolver solver(square_of_four());
+    TimeLoop run(loop, square_of_four(), solver, {});
+    run.go(never);
+    EXPECT_NEAR(run.state().box.width(), 1.02, 1e-11);
+    EXPECT_NEAR(run.state().box.height(), 2.04, 1e-11);
+    EXPECT_EQ(run.state().history.size(), 1U + 3U + 4U);
+    EXPECT_NEAR(value(run.state(), 4, "axial_strain"), 0.04, 1e-11);
+
+    for (int end = 0; end < 3; ++end) {
+        LoadingStage unload = back;
+        unload.until_strain.reset();
+        if (end == 0) unload.until_packing_fraction_undeformed = 0.27;
+        if (end == 1) unload.until_packing_fraction = 0.27;
+        if (end == 2) unload.until_stress = 0.05;
+        if (end == 0) unload.kind = LoadingKind::oedometric;
+        const Scenario scenario = with_stages({isotropic(0.06), unload});
+        AffineSolver grains(square_of_four());
+        TimeLoop partly(scenario, square_of_four(), grains, {});
+        partly.go(never);
+        const std::size_t last = partly.state().history.size() - 1;
+        const double phi = value(partly.state(), last, "packing_fraction");
+        const double stress = value(partly.state(), last, "mean_stress");
+        const double late = 2.5 * 0.02 / 8.0;  // what the grains decide is seen at the next check
+        EXPECT_NEAR(end == 2 ? stress : phi, end == 2 ? 0.05 : 0.27, end == 0 ? 1e-10 : late);
+        EXPECT_GT(partly.state().box.width() * partly.state().box.height(), 0.94 * 0.94 * 2.0);
+        EXPECT_EQ(partly.loading_done(), 1.0);
+    }
+}
+
+TEST(TimeLoop, AStageThatWouldHaveToGoBackIsAnError) {
+    LoadingStage until_stress = isotropic(0.5);
+    until_stress.until_strain.reset();
+    until_stress.until_stress = 0.2;
+    const Scenario scenario = with_stages({until_stress, isotropic(0.01)});
+    AffineSolver solver(square_of_four());
+    TimeLoop run(scenario, square_of_four(), solver, {});
+    try {
+        run.go(never);
+        FAIL() << "the strain was 0.09 already";
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("loading.1.until_strain = 0.01 is below the 0.0"), std::string::npos) << text;
+        EXPECT_NE(text.find("set reverse = true"), std::string::npos) << text;
+    }
+}
+
+TEST(TimeLoop, ClassesCountForTheMeanDensity) {
+    const Packing plain = square_of_four();
+    Packing mixed = plain;
+    mixed.grain_class = {0, 1, 1, 1};
+    LoadingStage stage = isotropic(0.1);
+    stage.strain_rate.reset();
+    stage.inertial_number = 0.01;
+    Scenario dense = with_stages({stage}), classes = dense;
+    dense.material.density = 4.0;  // mean of 1 and three times 5
+    classes.classes.resize(2);
+    classes.classes[1].material.density = 5.0;
+    AffineSolver first(plain), second(mixed);
+    TimeLoop a(dense, plain, first, {}), b(classes, mixed, second, {});
+    a.go(never);
+    b.go(never);
+    EXPECT_NEAR(b.state().time, a.state().time, 1e-12 * a.state().time);
+}
+
 TEST(TimeLoop, InertialNumberSetsTheRate) {
     const Packing packing = square_of_four();
     LoadingStage stage;
@@ -200,6 +364,37 @@ TEST(TimeLoop, NothingNotFiniteReachesAnObserver) {
     EXPECT_THROW(run.go(never), DivergedError);
     EXPECT_TRUE(observer.finite);
     EXPECT_EQ(observer.samples, 3);
+}
+
+TEST(TimeLoop, AShearedCellResumesWithTheSameBits) {
+    const Packing packing = cell_of_four();
+    LoadingStage shear;
+    shear.kind = LoadingKind::shear;
+    shear.until_shear = 0.7;
+    shear.strain_rate = 0.3;
+    const Scenario scenario = with_stages({isotropic(0.04), shear});
+    AffineSolver straight_solver(packing);
+    TimeLoop straight(scenario, packing, straight_solver, {});
+    straight.go(never);
+    for (const int stop_after : {15, 57, 100}) {
+        std::atomic<int> stop{0};
+        AffineSolver first_solver(packing);
+        TimeLoop first(scenario, packing, first_solver, {});
+        first.go(stop, [&] { stop = first_solver.steps >= stop_after ? 15 : 0; });
+        ASSERT_FALSE(first.finished());
+        Checkpoint loop, state;
+        first.state().save(loop);
+        first_solver.save(state);
+        AffineSolver second_solver(packing);
+        second_solver.load(state);
+        RunState restored;
+        restored.load(loop);
+        TimeLoop second(scenario, packing, second_solver, {});
+        second.resume(restored);
+        second.go(never);
+        EXPECT_EQ(second.state().history, straight.state().history) << "stopped after " << stop_after;
+        EXPECT_EQ(second.state().box.tilt, straight.state().box.tilt);
+    }
 }
 
 TEST(TimeLoop, StoppedAnywhereAndResumedGivesTheSameBits) {

@@ -63,7 +63,7 @@ const std::vector<Case> names{
     in("[material]\ncolour_of_grains = 1",
        "s.toml:2:1: unknown key 'material.colour_of_grains', known are youngs_modulus, poisson_ratio, "
        "density, "
-       "friction"),
+       "friction, wall_friction, cohesion, yield_stress"),
     in("poisson_ratio = 0.3", "s.toml:1:1: unknown key 'poisson_ratio', it belongs to [material]"),
     in("[materials]\ndensity = 1", "s.toml:1:2: unknown table 'materials', did you mean 'material'?"),
     in("[sprnig]", "s.toml:1:2: unknown table 'sprnig', did you mean 'spring'?"),
@@ -87,7 +87,7 @@ const std::vector<Case> stages{
     {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\ninertial_number = 1e-3\n",
      "s.toml:4:19: loading.0 has both strain_rate and inertial_number: remove one"},
     {"[[loading]]\nuntil_strain = 1.0\nstrain_rate = 1\n",
-     "s.toml:2:16: loading.0.until_strain must be > 0 and < 1, got 1"},
+     "s.toml:2:16: loading.0.until_strain must be >= -1 and < 1, got 1"},
     {"[[loading]]\nkind = \"oedometric\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
      "s.toml:1:1: loading.0.wall must be given for an oedometric stage: left, right, bottom or top"},
     {"[[loading]]\nkind = \"oedometric\"\nwall = \"topp\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
@@ -99,9 +99,92 @@ const std::vector<Case> stages{
     {"[[loading]]\nkind = \"hold\"\nduration = 1\nstrain_rate = 1\n",
      "s.toml:4:15: loading.0.strain_rate is not for a hold, whose walls stand still: remove it"},
     {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\nduration = 1\n",
-     "s.toml:4:12: loading.0.duration is for a hold only: use an until_... key"},
+     "s.toml:4:12: loading.0.duration is for a hold or a gradient only: use an until_... key"},
     {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nuntil_stress = 0\nstrain_rate = 1\n",
      "s.toml:5:16: loading.1.until_stress must be > 0, got 0"},
+};
+
+constexpr std::string_view cell = "[box]\nperiodic = true\n";
+
+/// Text after a periodic box, which takes two lines.
+Case in_cell(std::string_view text, std::string_view message) {
+    return {std::string(cell) + std::string(text), std::string(message)};
+}
+
+const std::vector<Case> cell_stages{
+    {"[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\nstrain_rate = 1\n",
+     "s.toml:2:8: loading.0.kind = \"shear\" needs a periodic cell: set box.periodic = true"},
+    {"[[loading]]\nkind = \"gradient\"\ngradient_xy = 0.1\nduration = 1\n",
+     "s.toml:2:8: loading.0.kind = \"gradient\" needs a periodic cell: set box.periodic = true"},
+    in_cell("[[loading]]\nkind = \"shear\"\nstrain_rate = 1\n",
+            "s.toml:3:1: loading.0 has no end: give until_shear, until_packing_fraction or until_stress"),
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\n",
+            "s.toml:3:1: loading.0 has no speed: give strain_rate or inertial_number"),
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
+            "s.toml:5:16: loading.0.until_strain is not for a shear: use until_shear"),
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\nwall = \"top\"\nstrain_rate = 1\n",
+            "s.toml:6:8: loading.0.wall is not for a shear, whose cell has no moving walls: remove it"),
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_packing_fraction_undeformed = 1.0\nstrain_rate = 1\n",
+            "s.toml:5:37: loading.0.until_packing_fraction_undeformed is not for a shear, which keeps the "
+            "area: remove it"),
+    in_cell("[[loading]]\nuntil_shear = 0.1\nuntil_strain = 0.1\nstrain_rate = 1\n",
+            "s.toml:4:15: loading.0.until_shear is for a shear only: use until_strain"),
+    in_cell("[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\ngradient_xx = 1\n",
+            "s.toml:6:15: loading.0.gradient_xx is for a gradient only: remove it"),
+    in_cell("[[loading]]\nkind = \"gradient\"\ngradient_xy = 0.1\n",
+            "s.toml:3:1: loading.0.duration must be given: a gradient ends after it"),
+    in_cell("[[loading]]\nkind = \"gradient\"\nduration = 1\ngradient_xy = 0\n",
+            "s.toml:3:1: loading.0 has no velocity gradient: give gradient_xx, gradient_xy or gradient_yy"),
+    in_cell("[[loading]]\nkind = \"gradient\"\nduration = 1\ngradient_xy = 1\nuntil_strain = 0.1\n",
+            "s.toml:7:16: loading.0.until_strain is not for a gradient, whose velocity gradient and duration "
+            "say all: remove it"),
+};
+
+const std::vector<Case> courses{
+    {"[[loading]]\nuntil_strain = 0.0\nstrain_rate = 1\n",
+     "s.toml:2:16: loading.0.until_strain must be above 0, where the stage begins, got 0; set reverse = true "
+     "to go back"},
+    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\nreverse = true\n",
+     "s.toml:2:16: loading.0.until_strain must be below 0, where the stage begins, to be reached in reverse, "
+     "got 0.1"},
+    {"[[loading]]\nuntil_strain = 0.2\nstrain_rate = 1\n[[loading]]\nkind = \"hold\"\nduration = 1\n"
+     "[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\n",
+     "s.toml:8:16: loading.2.until_strain must be above 0.2, where the stage begins, got 0.1; set reverse = "
+     "true to go back"},
+    // An isotropic stage moves the height by as much as the width.
+    {"[[loading]]\nuntil_strain = 0.2\nstrain_rate = 1\n[[loading]]\nkind = \"oedometric\"\nwall = \"top\"\n"
+     "until_strain = 0.15\nstrain_rate = 1\n",
+     "s.toml:7:16: loading.1.until_strain must be above 0.2, where the stage begins, got 0.15; set reverse = "
+     "true to go back"},
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.2\nstrain_rate = 1\n"
+            "[[loading]]\nkind = \"shear\"\nuntil_shear = 0.3\nstrain_rate = 1\nreverse = true\n",
+            "s.toml:9:15: loading.1.until_shear must be below 0.2, where the stage begins, to be reached in "
+            "reverse, got 0.3"),
+    // Where the grains decide, or another direction moved, nothing is known and nothing is said.
+    {"[[loading]]\nuntil_strain = 0.2\nuntil_stress = 1\nstrain_rate = 1\n[[loading]]\nuntil_strain = 0.1\n"
+     "strain_rate = 1\n",
+     ""},
+    {"[[loading]]\nuntil_strain = 0.2\nstrain_rate = 1\n[[loading]]\nuntil_strain = 0.0\nstrain_rate = 1\n"
+     "reverse = true\n",
+     ""},
+    {"[[loading]]\nkind = \"oedometric\"\nwall = \"left\"\nuntil_strain = 0.2\nstrain_rate = 1\n[[loading]]\n"
+     "kind = \"oedometric\"\nwall = \"top\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
+     ""},
+};
+
+const std::vector<Case> classes{
+    in("[[grain_class]]\nshare = 0", "s.toml:2:9: grain_class.0.share must be > 0, got 0"),
+    in("[[grain_class]]\naspect_ratio = 3.5",
+       "s.toml:2:16: grain_class.0.aspect_ratio must be >= 1 and <= 3, got 3.5"),
+    in("[[grain_class]]\n[[grain_class]]\npoisson_ratio = 0.6",
+       "s.toml:3:17: grain_class.1.poisson_ratio must be >= 0 and <= 0.5, got 0.6"),
+    in("[[grain_class]]\nfriction = 0.1",
+       "s.toml:2:1: unknown key 'grain_class.0.friction', it belongs to [material]"),
+    in("[grain_class]\nshare = 1",
+       "s.toml:1:1: grain_class must be an array of tables, write [[grain_class]], got a table"),
+    in("[material]\ncohesion = -1", "s.toml:2:12: material.cohesion must be >= 0, got -1"),
+    in("[material]\nyield_stress = 0", "s.toml:2:16: material.yield_stress must be > 0, got 0"),
+    in("[box]\nperiodic = 1", "s.toml:2:12: box.periodic must be true or false, got the integer 1"),
 };
 
 const std::vector<Case> packings{
@@ -138,6 +221,21 @@ TEST(ScenarioErrors, Names) {
 TEST(ScenarioErrors, Stages) {
     expect_messages(stages);
 }
+TEST(ScenarioErrors, StagesOfAPeriodicCell) {
+    expect_messages(cell_stages);
+}
+TEST(ScenarioErrors, StagesThatWouldHaveToGoBack) {
+    expect_messages(courses);
+}
+TEST(ScenarioErrors, GrainClasses) {
+    expect_messages(classes);
+}
+TEST(ScenarioErrors, TooManyGrainClasses) {
+    std::string text;
+    for (int k = 0; k < 256; ++k) text += "[[grain_class]]\n";
+    EXPECT_EQ(error_of(text + std::string(stage)),
+              "s.toml:256:1: grain_class.255 is one too many, at most 255 are accepted");
+}
 TEST(ScenarioErrors, Packings) {
     expect_messages(packings);
 }
@@ -156,7 +254,7 @@ TEST(ScenarioErrors, AllOfAFileInOrderOfPosition) {
               "s.toml:4:12: material.friction must be >= 0, got -1\n"
               "s.toml:5:1: unknown key 'material.densty', did you mean 'density'?\n"
               "s.toml:7:15: loading.0.strain_rate must be > 0, got 0\n"
-              "s.toml:8:16: loading.0.until_strain must be > 0 and < 1, got 2");
+              "s.toml:8:16: loading.0.until_strain must be >= -1 and < 1, got 2");
 }
 
 TEST(ScenarioErrors, ManyAreCounted) {

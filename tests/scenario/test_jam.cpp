@@ -16,7 +16,7 @@ JammedPacking jammed(int count, std::uint64_t seed, double aspect_ratio = 1.0, P
     spec.count = count;
     Random random(seed);
     const auto radii = draw_radii(spec, random);
-    return jam(radii, aspect_ratio, random, spec.packing_fraction);
+    return jam(radii, {.aspect_ratio = aspect_ratio, .packing_fraction = spec.packing_fraction}, random);
 }
 
 PackingSpec until(double packing_fraction) {

@@ -105,7 +105,7 @@ TEST(Overrides, ErrorsNameTheOption) {
          "--set loading.until_strain: 'loading' has several stages, write loading.0.until_strain"},
         {"loading.x.until_strain=0.1",
          "--set loading.x.until_strain: 'x' must be the number of a [[loading]], from 0"},
-        {"loading.0.until_strain=1", "--set loading.0.until_strain: must be > 0 and < 1, got 1"},
+        {"loading.0.until_strain=1", "--set loading.0.until_strain: must be >= -1 and < 1, got 1"},
         {"title.x=1", "--set title.x: 'title' is not a table"},
         {"material=1", "--set material: must be one table, write [material], got the integer 1"},
         {"material.density", "--set material.density: expected KEY=VALUE, as material.density=2"},

@@ -20,6 +20,21 @@ void expect_same(const LoadingStage& a, const LoadingStage& b) {
     EXPECT_EQ(a.duration, b.duration);
     EXPECT_EQ(a.strain_rate, b.strain_rate);
     EXPECT_EQ(a.inertial_number, b.inertial_number);
+    EXPECT_EQ(a.until_shear, b.until_shear);
+    EXPECT_EQ(a.reverse, b.reverse);
+    EXPECT_EQ(a.gradient_xx, b.gradient_xx);
+    EXPECT_EQ(a.gradient_xy, b.gradient_xy);
+    EXPECT_EQ(a.gradient_yy, b.gradient_yy);
+}
+
+void expect_same(const Material& a, const Material& b) {
+    EXPECT_EQ(a.youngs_modulus, b.youngs_modulus);
+    EXPECT_EQ(a.poisson_ratio, b.poisson_ratio);
+    EXPECT_EQ(a.density, b.density);
+    EXPECT_EQ(a.friction, b.friction);
+    EXPECT_EQ(a.wall_friction, b.wall_friction);
+    EXPECT_EQ(a.cohesion, b.cohesion);
+    EXPECT_EQ(a.yield_stress, b.yield_stress);
 }
 
 void expect_same(const PackingSpec& a, const PackingSpec& b) {
@@ -37,13 +52,18 @@ void expect_same(const PackingSpec& a, const PackingSpec& b) {
 void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.title, b.title);
     EXPECT_EQ(a.seed, b.seed);
-    EXPECT_EQ(a.material.youngs_modulus, b.material.youngs_modulus);
-    EXPECT_EQ(a.material.poisson_ratio, b.material.poisson_ratio);
-    EXPECT_EQ(a.material.density, b.material.density);
-    EXPECT_EQ(a.material.friction, b.material.friction);
+    expect_same(a.material, b.material);
+    ASSERT_EQ(a.classes.size(), b.classes.size());
+    for (std::size_t c = 0; c < a.classes.size(); ++c) {
+        EXPECT_EQ(a.classes[c].name, b.classes[c].name);
+        EXPECT_EQ(a.classes[c].share, b.classes[c].share);
+        EXPECT_EQ(a.classes[c].aspect_ratio, b.classes[c].aspect_ratio);
+        expect_same(a.classes[c].material, b.classes[c].material);
+    }
     expect_same(a.packing, b.packing);
     EXPECT_EQ(a.box.width, b.box.width);
     EXPECT_EQ(a.box.height, b.box.height);
+    EXPECT_EQ(a.box.periodic, b.box.periodic);
     ASSERT_EQ(a.loading.size(), b.loading.size());
     for (std::size_t k = 0; k < a.loading.size(); ++k) expect_same(a.loading[k], b.loading[k]);
     EXPECT_EQ(a.sampling.strain_interval, b.sampling.strain_interval);
@@ -122,6 +142,59 @@ cutoff = 0.1
     const std::string written = write_scenario(first, methods());
     expect_same(parse(written), first);
     EXPECT_EQ(write_scenario(parse(written), methods()), written);
+}
+
+TEST(Resolved, ClassesTakeWhatTheyDoNotSayFromTheMaterial) {
+    const std::string text = R"([material]
+youngs_modulus = 5
+poisson_ratio = 0.4
+cohesion = 0.01
+wall_friction = 0.2
+yield_stress = 0.3
+[box]
+periodic = true
+[[grain_class]]
+name = "soft"
+share = 3
+youngs_modulus = 1
+yield_stress = 0.1
+[[grain_class]]
+aspect_ratio = 2
+density = 7
+[[loading]]
+kind = "gradient"
+gradient_xy = -0.1
+gradient_yy = 0.2
+duration = 3
+[[loading]]
+kind = "shear"
+until_shear = -0.1
+reverse = true
+inertial_number = 1e-3
+[[loading]]
+until_strain = -0.5
+reverse = true
+strain_rate = 1
+)";
+    const Scenario s = parse(text);
+    ASSERT_EQ(s.class_count(), 2U);
+    EXPECT_TRUE(s.has_ellipses());
+    EXPECT_EQ(s.classes[0].name, "soft");
+    EXPECT_EQ(s.material_of(0).youngs_modulus, 1.0);
+    EXPECT_EQ(s.material_of(0).yield_stress, 0.1);
+    EXPECT_EQ(s.material_of(0).poisson_ratio, 0.4);
+    EXPECT_EQ(s.material_of(1).youngs_modulus, 5.0);
+    EXPECT_EQ(s.material_of(1).yield_stress, 0.3);
+    EXPECT_EQ(s.material_of(1).density, 7.0);
+    EXPECT_EQ(s.material_of(1).cohesion, 0.01);
+    EXPECT_EQ(s.loading[0].gradient_xx, 0.0);
+    EXPECT_EQ(s.loading[0].gradient_xy, -0.1);
+    EXPECT_TRUE(s.box.periodic);
+    const std::string written = write_scenario(s, methods());
+    expect_same(parse(written), s);
+    EXPECT_EQ(write_scenario(parse(written), methods()), written);
+    EXPECT_EQ(parse(stage).class_count(), 1U);
+    EXPECT_EQ(parse(stage).material_of(0).youngs_modulus, 1.0);
 }
 
 TEST(Resolved, APackingFileStaysTheSameFileFromAnotherFolder) {

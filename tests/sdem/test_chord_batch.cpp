@@ -206,7 +206,7 @@ TEST(ChordBatch, NeverSoundAndWrong) {
         EXPECT_NEAR(batch.cap_a[0], c.cap_i, tolerance) << "pair " << k;
         EXPECT_NEAR(batch.cap_b[0], c.cap_j, tolerance) << "pair " << k;
     }
-    EXPECT_GT(sound, 2000);
+    EXPECT_GT(sound, 1000);
     RecordProperty("sound", sound);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// A method without physics: grains follow the walls affinely and push back with p = stiffness * (phi -
-// phi_start). For tests of the loop, the observables and the writers.
+// A method without physics: grains follow the walls or the cell affinely and push back with p = stiffness *
+// (phi - phi_start), a cell also with a shear stress of -stiffness times its shear strain. For tests of the
+// loop, the observables and the writers.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -42,6 +43,7 @@ class AffineSolver final : public Solver {
         return v;
     }
     const std::array<Vec2, 4>& wall_force() const override { return force_; }
+    Mat2 cell_stress() const override { return cell_stress_; }
     double stress_scale() const override { return stiffness_; }
     std::optional<std::string> outside_validity() const override {
         if (box_.width() < invalid_below) return "the box is too narrow";
@@ -52,12 +54,14 @@ class AffineSolver final : public Solver {
     }
     void save(Checkpoint& to) const override {
         to.put("box", std::span<const double>(box_.position));
+        to.put("tilt", box_.tilt);
         to.put("time", time_);
     }
     void load(const Checkpoint& from) override {
         std::vector<double> p;
         from.get("box", p);
         std::copy(p.begin(), p.end(), box_.position.begin());
+        box_.tilt = from.number("tilt");
         time_ = from.number("time");
         update();
     }
@@ -73,10 +77,13 @@ class AffineSolver final : public Solver {
         for (const Vec2& c : packing_.center) {
             const Vec2 unit{(c.x() - start_.position[0]) / start_.width(),
                             (c.y() - start_.position[2]) / start_.height()};
-            center_.emplace_back(box_.position[0] + unit.x() * box_.width(),
+            center_.emplace_back(box_.position[0] + unit.x() * box_.width() + unit.y() * box_.tilt,
                                  box_.position[2] + unit.y() * box_.height());
         }
         const double p = stiffness_ * (start_.area() / box_.area() - 1.0);
+        const double shear = -stiffness_ * box_.shear_strain();
+        cell_stress_ << p, shear, shear, p;
+        if (box_.periodic) return;
         for (int w = 0; w < 4; ++w)
             force_[static_cast<std::size_t>(w)] =
                 -p * (wall_axis(w) == 0 ? box_.height() : box_.width()) * wall_normal(w);
@@ -88,6 +95,7 @@ class AffineSolver final : public Solver {
     double time_ = 0.0;
     std::vector<Vec2> center_, velocity_;
     std::vector<double> area_;
+    Mat2 cell_stress_ = Mat2::Zero();
     std::array<Vec2, 4> force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
 };
 

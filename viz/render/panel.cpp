@@ -4,6 +4,7 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 
@@ -21,9 +22,14 @@ constexpr double outline_share = 0.025;   ///< width of an outline, times the me
 constexpr double thickest_outline = 1.4;  ///< [pixels]
 constexpr double thickest_edge = 1.0;     ///< light edge of a chain, on each side [pixels]
 constexpr double wall_width = 4.0;        ///< [pixels]
+constexpr double cell_width = 1.5;        ///< edge of a periodic cell [pixels]
 constexpr double thinnest_chain = 0.2;    ///< thinner lines are not drawn [pixels]
 constexpr double even_width = 1.5;        ///< [pixels]
 constexpr int disc_corners = 48;
+
+bool is_periodic(const Frame& frame) {
+    return frame.walls && frame.walls->GetFieldData()->HasArray("periodic") != 0;
+}
 
 vtkDataArray* find_array(const Frame& frame, const std::string& name) {
     return frame.grains->GetCellData()->GetArray(name.c_str());
@@ -169,7 +175,12 @@ double mean_diameter(const Frame& frame) {
 Extent frame_extent(const Frame& frame) {
     double bounds[6];
     (frame.walls ? frame.walls : frame.grains)->GetBounds(bounds);
-    return {{bounds[0], bounds[2]}, {bounds[1], bounds[3]}};
+    Extent extent{{bounds[0], bounds[2]}, {bounds[1], bounds[3]}};
+    if (!is_periodic(frame)) return extent;
+    frame.grains->GetBounds(bounds);
+    extent.low = extent.low.cwiseMin(Vec2{bounds[0], bounds[2]});
+    extent.high = extent.high.cwiseMax(Vec2{bounds[1], bounds[3]});
+    return extent;
 }
 
 void draw_chains(Page& page, std::span<const Chain> chains) {
@@ -187,6 +198,13 @@ void draw_panel(Page& page, const Frame& frame, const PanelScale& scale, const V
     draw_grains(page, frame, scale, place);
     draw_chains(page, make_chains(frame, scale, place));
     if (!frame.walls) return;
+    if (is_periodic(frame)) {
+        std::vector<Vec2> corners;
+        for (vtkIdType k = 0; k < frame.walls->GetNumberOfPoints(); ++k)
+            corners.push_back(place({frame.walls->GetPoint(k)[0], frame.walls->GetPoint(k)[1]}));
+        page.stroke(corners, cell_width, black, true);
+        return;
+    }
     const Extent extent = frame_extent(frame);
     const Vec2 aside = Vec2::Constant(wall_width / 2.0);
     const Vec2 low = place(extent.low) - aside;

@@ -31,7 +31,8 @@ double mean_diameter(const Frame& frame);
 struct Extent {
     Vec2 low, high;  ///< [m]
 };
-/// Of the walls, or of the grains if walls were not written.
+/// Of the walls, or of the grains if walls were not written; of both in a periodic cell, whose grains stick
+/// out.
 Extent frame_extent(const Frame& frame);
 
 /// `centre`: where on the page the middle of the extent goes [pixels].

@@ -9,8 +9,11 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "common/errors.hpp"
+#include "common/observables/stress.hpp"
+#include "viz/writers/periodic.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
@@ -27,24 +30,56 @@ void insert_point(vtkPoints& points, vtkCellArray& lines, const Vec2& p) {
     lines.InsertCellPoint(points.InsertNextPoint(p.x(), p.y(), 0.0));
 }
 
-void add_lines(const GrainView& view, vtkPolyData& data) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> lines;
-    for (const GrainContact& contact : view.contacts) {
-        lines->InsertNextCell(3);
-        insert_point(*points, *lines, view.centroid[static_cast<std::size_t>(contact.i)]);
-        insert_point(*points, *lines, contact.point);
-        insert_point(*points, *lines,
-                     contact.with_wall() ? foot_on_wall(view.box, contact.wall(), contact.point)
-                                         : view.centroid[static_cast<std::size_t>(contact.j)]);
+/// A line to draw and the contact it belongs to.
+struct Line {
+    std::size_t contact;
+    std::vector<Vec2> points;
+};
+
+std::vector<Line> lines_of(const GrainView& view) {
+    const std::vector<Vec2> shift = shift_into_cell(view);
+    std::vector<Line> lines;
+    for (std::size_t k = 0; k < view.contacts.size(); ++k) {
+        const GrainContact& c = view.contacts[k];
+        const auto i = static_cast<std::size_t>(c.i);
+        const Vec2 from = view.centroid[i] - shift[i];
+        const Vec2 point = c.point - shift[i];
+        if (c.with_wall()) {
+            lines.push_back({k, {from, point, foot_on_wall(view.box, c.wall(), point)}});
+            continue;
+        }
+        const auto j = static_cast<std::size_t>(c.j);
+        const Vec2 to = view.centroid[j] - shift[j];
+        if (!view.box.periodic) {
+            lines.push_back({k, {from, point, to}});
+            continue;
+        }
+        // From the place of j that touches i to the one where it is drawn.
+        const Vec2 across = to - (from + branch(view, c));
+        if (across.norm() < 1e-9 * view.box.spacing()) {
+            lines.push_back({k, {from, point, to}});
+        } else {
+            lines.push_back({k, {from, point}});
+            lines.push_back({k, {to, point + across}});
+        }
     }
-    data.SetPoints(points);
-    data.SetLines(lines);
+    return lines;
 }
 
-void add_contact_data(const GrainView& view, vtkPolyData& data) {
-    const std::size_t n = view.contacts.size();
+void add_lines(const std::vector<Line>& lines, vtkPolyData& data) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    for (const Line& line : lines) {
+        cells->InsertNextCell(static_cast<int>(line.points.size()));
+        for (const Vec2& p : line.points) insert_point(*points, *cells, p);
+    }
+    data.SetPoints(points);
+    data.SetLines(cells);
+}
+
+void add_contact_data(const GrainView& view, const std::vector<Line>& lines, vtkPolyData& data) {
+    const std::size_t n = lines.size();
     vtkCellData& cells = *data.GetCellData();
     auto normal_force = add_numbers(cells, "normal_force", "N", 1, n);
     auto tangential_force = add_numbers(cells, "tangential_force", "N", 1, n);
@@ -57,7 +92,7 @@ void add_contact_data(const GrainView& view, vtkPolyData& data) {
     is_wall->SetName("is_wall");
     for (std::size_t k = 0; k < n; ++k) {
         const auto cell = static_cast<vtkIdType>(k);
-        const GrainContact& contact = view.contacts[k];
+        const GrainContact& contact = view.contacts[lines[k].contact];
         if (!contact.point.allFinite() || !contact.force.allFinite() || !contact.normal.allFinite() ||
             !std::isfinite(contact.length))
             throw DivergedError(contact.i, "contact force or point", view.time,
@@ -90,8 +125,9 @@ void ContactWriter::resume(std::span<const double> frame_times) {
 void ContactWriter::observe(const GrainView& view, const Sample& sample) {
     if (!sample.is_frame) return;
     vtkNew<vtkPolyData> data;
-    add_lines(view, *data);
-    add_contact_data(view, *data);
+    const std::vector<Line> lines = lines_of(view);
+    add_lines(lines, *data);
+    add_contact_data(view, lines, *data);
     frames_.add(sample.frame, view.time, *data);
 }
 

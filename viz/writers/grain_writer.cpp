@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "viz/writers/periodic.hpp"
 #include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
@@ -23,7 +24,7 @@ void require_finite(bool finite, std::size_t grain, const char* quantity, double
 }
 
 /// Points and polygons, with the shapes that follow from them.
-void add_outlines(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
+void add_outlines(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
     vtkNew<vtkCellArray> polygons;
     auto aspect_ratio = add_numbers(*data.GetCellData(), "aspect_ratio", "", 1, view.size());
     auto orientation = add_numbers(*data.GetCellData(), "orientation", "rad", 1, view.size());
@@ -34,7 +35,8 @@ void add_outlines(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
         polygons->InsertNextCell(static_cast<int>(outline.size()));
         for (const Vec2& p : outline) {
             require_finite(p.allFinite(), g, "outline", view.time);
-            polygons->InsertCellPoint(points.InsertNextPoint(p.x(), p.y(), 0.0));
+            polygons->InsertCellPoint(
+                points.InsertNextPoint(p.x() - shift[g].x(), p.y() - shift[g].y(), 0.0));
         }
         const PolygonShape shape = polygon_shape(outline);
         aspect_ratio->SetValue(static_cast<vtkIdType>(g), shape.aspect_ratio);
@@ -43,9 +45,10 @@ void add_outlines(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
     data.SetPolys(polygons);
 }
 
-void add_centroids(const GrainView& view, vtkPoints& points, vtkPolyData& data) {
+void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
     vtkNew<vtkCellArray> vertices;
-    for (const Vec2& c : view.centroid) {
+    for (std::size_t g = 0; g < view.size(); ++g) {
+        const Vec2 c = view.centroid[g] - shift[g];
         vertices->InsertNextCell(1);
         vertices->InsertCellPoint(points.InsertNextPoint(c.x(), c.y(), 0.0));
     }
@@ -102,8 +105,8 @@ void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
 
 }  // namespace
 
-GrainWriter::GrainWriter(std::filesystem::path run_dir, Need needs)
-    : frames_(std::move(run_dir), "grains"), needs_(needs) {}
+GrainWriter::GrainWriter(std::filesystem::path run_dir, Need needs, std::vector<std::uint8_t> grain_class)
+    : frames_(std::move(run_dir), "grains"), needs_(needs), grain_class_(std::move(grain_class)) {}
 
 Need GrainWriter::need(const Sample& sample) const {
     return sample.is_frame ? needs_ : Need::base;
@@ -122,10 +125,16 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     add_scalars(*data, "mass", "kg", view.mass);
     add_scalars(*data, "reference_area", "m^2", view.reference_area);
     if (wants(needs_, Need::area)) add_scalars(*data, "area", "m^2", view.area);
+    const std::vector<Vec2> shift = shift_into_cell(view);
     if (wants(needs_, Need::outlines))
-        add_outlines(view, *points, *data);
+        add_outlines(view, shift, *points, *data);
     else
-        add_centroids(view, *points, *data);
+        add_centroids(view, shift, *points, *data);
+    if (!grain_class_.empty()) {
+        auto grain_class = add_ids(*data->GetCellData(), "grain_class", grain_class_.size());
+        for (std::size_t g = 0; g < grain_class_.size(); ++g)
+            grain_class->SetValue(static_cast<vtkIdType>(g), grain_class_[g]);
+    }
     data->SetPoints(points);
     if (wants(needs_, Need::stress)) add_stress(view, *data);
     if (wants(needs_, Need::fields))

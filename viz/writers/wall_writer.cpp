@@ -1,7 +1,9 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -19,15 +21,16 @@ namespace {
 /// Corners counter-clockwise from the lower left, and the two that end each wall (left, right, bottom, top).
 constexpr int wall_corner[4][2] = {{3, 0}, {1, 2}, {0, 1}, {2, 3}};
 
-vtkSmartPointer<vtkPolyData> wall_lines(const Box& box) {
+vtkSmartPointer<vtkPolyData> wall_lines(const Box& given) {
+    const Box box = given.reduced();
     const auto& p = box.position;
     auto data = vtkSmartPointer<vtkPolyData>::New();
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     points->InsertNextPoint(p[0], p[2], 0.0);
     points->InsertNextPoint(p[1], p[2], 0.0);
-    points->InsertNextPoint(p[1], p[3], 0.0);
-    points->InsertNextPoint(p[0], p[3], 0.0);
+    points->InsertNextPoint(p[1] + box.tilt, p[3], 0.0);
+    points->InsertNextPoint(p[0] + box.tilt, p[3], 0.0);
     vtkNew<vtkCellArray> lines;
     for (const auto& corners : wall_corner) {
         lines->InsertNextCell(2);
@@ -62,7 +65,7 @@ void WallWriter::observe(const GrainView& view, const Sample& sample) {
     for (int wall = 0; wall < 4; ++wall) {
         const auto w = static_cast<std::size_t>(wall);
         const Vec2& on_wall = view.wall_force[w];
-        if (!on_wall.allFinite() || !std::isfinite(view.box.position[w]))
+        if (!on_wall.allFinite() || !std::isfinite(view.box.position[w]) || !std::isfinite(view.box.tilt))
             throw DivergedError(-1, "force or position of the wall " + std::string(wall_names[w]), view.time,
                                 "not a number that can be drawn");
         const double length = wall_axis(wall) == 0 ? view.box.height() : view.box.width();
@@ -71,6 +74,12 @@ void WallWriter::observe(const GrainView& view, const Sample& sample) {
         force->SetTuple3(wall, on_wall.x(), on_wall.y(), 0.0);
         normal_force->SetValue(wall, outward);
         stress->SetValue(wall, outward / length);
+    }
+    if (view.box.periodic) {
+        vtkNew<vtkIntArray> periodic;
+        periodic->SetName("periodic");
+        periodic->InsertNextValue(1);
+        data->GetFieldData()->AddArray(periodic);
     }
     frames_.add(sample.frame, view.time, *data);
 }

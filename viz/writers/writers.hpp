@@ -1,6 +1,8 @@
 #pragma once
 // Observers that write each frame for ParaView: grains.pvd, contacts.pvd and walls.pvd.
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "common/observer.hpp"
 #include "viz/writers/frame_collection.hpp"
@@ -9,11 +11,12 @@ namespace softgrain {
 
 /// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids)
 /// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
-/// aspect_ratio, orientation and the method's own fields.
+/// aspect_ratio, orientation, grain_class if there is more than one, and the method's own fields. In a
+/// periodic cell each grain is drawn where its centroid lies in the cell.
 class GrainWriter final : public Observer {
   public:
-    /// `needs`: which of area, stress, outlines and fields to write.
-    GrainWriter(std::filesystem::path run_dir, Need needs);
+    /// `needs`: which of area, stress, outlines and fields to write. `grain_class` [n] or empty.
+    GrainWriter(std::filesystem::path run_dir, Need needs, std::vector<std::uint8_t> grain_class = {});
     Need need(const Sample& sample) const override;
     /// Throws OutputError, and DivergedError if a grain's position, outline or stress is not finite.
     void observe(const GrainView& view, const Sample& sample) override;
@@ -22,10 +25,12 @@ class GrainWriter final : public Observer {
   private:
     FrameCollection frames_;
     Need needs_;
+    std::vector<std::uint8_t> grain_class_;
 };
 
-/// Contacts as lines centroid - contact point - centroid, or centroid - contact point - wall, with cell data:
-/// normal_force, tangential_force, force, normal, contact_length, grain_i, grain_j (-1 - wall), is_wall.
+/// Contacts as lines centroid - contact point - centroid, or centroid - contact point - wall; a contact
+/// across a periodic cell as two, each from one grain to the contact point. Cell data: normal_force,
+/// tangential_force, force, normal, contact_length, grain_i, grain_j (-1 - wall), is_wall.
 class ContactWriter final : public Observer {
   public:
     explicit ContactWriter(std::filesystem::path run_dir);
@@ -38,8 +43,8 @@ class ContactWriter final : public Observer {
     FrameCollection frames_;
 };
 
-/// The four walls as lines with cell data: wall (0 left, 1 right, 2 bottom, 3 top), wall_force, normal_force,
-/// wall_stress.
+/// The four walls, or the edges of a periodic cell (field data periodic = 1, reduced tilt), as lines with
+/// cell data: wall (0 left, 1 right, 2 bottom, 3 top), wall_force, normal_force, wall_stress.
 class WallWriter final : public Observer {
   public:
     explicit WallWriter(std::filesystem::path run_dir);

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include "common/errors.hpp"
+#include "common/refusals.hpp"
+
+namespace softgrain {
+namespace {
+
+std::string refusal(const Scenario& scenario, const Packing& packing, Feature feature) {
+    try {
+        refuse(scenario, packing, "cubes", feature, "they are stiff");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Refusals, NameWhatIsAskedAndTheCure) {
+    Scenario s;
+    Packing p;
+    p.center = {{0.5, 0.5}};
+    p.radius = {0.1};
+    for (const Feature feature :
+         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
+          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+        EXPECT_EQ(refusal(s, p, feature), "");
+
+    s.material.friction = 0.3;
+    EXPECT_EQ(
+        refusal(s, p, Feature::friction),
+        "material.friction = 0.3 is not for cubes: they are stiff; set material.friction = 0 or run another "
+        "method");
+    EXPECT_EQ(refusal(s, p, Feature::wall_friction), "");
+    s.material.wall_friction = 0.1;
+    s.material.cohesion = 2.0;
+    EXPECT_NE(refusal(s, p, Feature::wall_friction).find("material.wall_friction = 0.1 is not"),
+              std::string::npos);
+    EXPECT_NE(refusal(s, p, Feature::cohesion).find("set material.cohesion = 0 or"), std::string::npos);
+    p.box.periodic = true;
+    EXPECT_EQ(refusal(s, p, Feature::periodic_cell),
+              "box.periodic = true is not for cubes: they are stiff; set box.periodic = false or run another "
+              "method");
+    p.aspect_ratio = {1.0};
+    p.angle = {0.0};
+    EXPECT_EQ(refusal(s, p, Feature::ellipses), "");
+    p.aspect_ratio = {1.5};
+    EXPECT_NE(refusal(s, p, Feature::ellipses).find("a packing of ellipses is not for cubes"),
+              std::string::npos);
+    s.classes.resize(1);
+    EXPECT_EQ(refusal(s, p, Feature::grain_classes), "");
+    s.classes.resize(3);
+    s.classes[2].material.yield_stress = 0.4;
+    EXPECT_NE(refusal(s, p, Feature::grain_classes).find("a scenario of 3 grain classes is not"),
+              std::string::npos);
+    EXPECT_NE(refusal(s, p, Feature::yield_stress).find("grain_class.2.yield_stress = 0.4 is not"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace softgrain
