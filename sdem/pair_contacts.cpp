@@ -84,7 +84,7 @@ class Work {
         batch_.chord.count = 0;
     }
 
-    BadPair bad() const { return bad_; }
+    PairNews take_news() { return std::move(news_); }
 
   private:
     /// Solves by the careful way what the batch could not; lanes without a contact are closed up.
@@ -153,6 +153,7 @@ class Work {
         const ChordBatch& c = w.chord;
         const std::size_t k = w.pair[l];
         Contact& to = out_.contact[k];
+        if (!to.touching()) news_.closed.push_back(k);
         if (w.swapped[l]) {
             to.chord_x = -c.chord_x[l];
             to.chord_y = -c.chord_y[l];
@@ -187,18 +188,18 @@ class Work {
     }
 
     void report(std::size_t k, Overlap overlap) {
-        if (k < bad_.pair) bad_ = {k, overlap};
+        if (k < news_.bad.pair) news_.bad = {k, overlap};
     }
 
     const PairInput& in_;
     const PairOutput& out_;
     PairLanes batch_;
-    BadPair bad_;
+    PairNews news_;
 };
 
 }  // namespace
 
-BadPair evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end) {
+PairNews evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end) {
     Work work(in, out);
     for (std::size_t k = begin; k < end; ++k) {
         const auto i = static_cast<std::size_t>(in.pair[k].i), j = static_cast<std::size_t>(in.pair[k].j);
@@ -218,7 +219,7 @@ BadPair evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t b
         }
     }
     work.finish();
-    return work.bad();
+    return work.take_news();
 }
 
 }  // namespace softgrain::sdem

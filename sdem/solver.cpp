@@ -162,15 +162,27 @@ void SoftDiscSolver::rebuild_contacts() {
 
 void SoftDiscSolver::update_contacts(double dt) {
     guess_before_ = contacts_.guess;
-    evaluate_pairs_and_walls();
+    disturbed_.clear();
+    evaluate_all_pairs();
+    evaluate_all_walls();
     if (has_potential()) find_all_pressures();
     if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
     if (motion_.box.periodic) sum_cell_stress();
-    if (steps_ % steps_per_time_step_check == 0 || time_step_ == 0.0) time_step_ = time_step_limit();
+    limit_time_step();
 }
 
-void SoftDiscSolver::evaluate_pairs_and_walls() {
+/// Stiffness grows slowly, and all at once where a contact closes.
+void SoftDiscSolver::limit_time_step() {
+    if (steps_ % steps_per_time_step_check == 0 || time_step_ == 0.0) {
+        time_step_ = time_step_limit();
+    } else {
+        for (const std::size_t g : disturbed_)
+            time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g));
+    }
+}
+
+void SoftDiscSolver::evaluate_all_pairs() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
     const PairInput in{
@@ -179,19 +191,27 @@ void SoftDiscSolver::evaluate_pairs_and_walls() {
     const PairOutput out{contacts_.pair_contact, contacts_.guess, contacts_.pair_history.slip_rate};
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
-    std::vector<BadPair> bad(chunks);
+    std::vector<PairNews> news(chunks);
 #pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
-        bad[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
+        news[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
     }
-    for (const BadPair& b : bad)
-        if (b.pair < pairs) throw_bad_pair(b);
+    for (const PairNews& n : news) {
+        if (n.bad.pair < pairs) throw_bad_pair(n.bad);
+        for (const std::size_t k : n.closed)
+            for (const int g : {contacts_.pairs()[k].i, contacts_.pairs()[k].j})
+                disturbed_.push_back(static_cast<std::size_t>(g));
+    }
+}
 
-    const std::size_t bad_wall =
-        evaluate_walls({grains_, lattice, options_.motion.contact_law, options_.contact_damping}, contacts_);
-    if (bad_wall < contacts_.wall_pairs().size())
-        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[bad_wall].grain)),
+void SoftDiscSolver::evaluate_all_walls() {
+    const WallNews news =
+        evaluate_walls({grains_, cell(), options_.motion.contact_law, options_.contact_damping}, contacts_);
+    for (const std::size_t k : news.closed)
+        disturbed_.push_back(static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+    if (news.bad < contacts_.wall_pairs().size())
+        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[news.bad].grain)),
                             "wall contact", time_,
                             "the grain went through a wall, or its cap is too deep for Eq. 57");
 }

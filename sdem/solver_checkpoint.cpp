@@ -114,7 +114,6 @@ void SoftDiscSolver::load(const Checkpoint& from) {
     }
     time_ = from.number("sdem.time");
     last_step_ = from.number("sdem.last_step");
-    time_step_ = from.number("sdem.time_step");
     std::vector<std::int64_t> counters;
     get_sized(from, "sdem.counters", 2, counters);
     steps_ = counters[0];
@@ -159,6 +158,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
     }
     if (contacts_.stale(grains_, cell().box)) rebuild_contacts();  // never for a state as it was saved
     update_contacts(0.0);
+    time_step_ = from.number("sdem.time_step");  // to that evaluation every contact was a new one
 }
 
 void SoftDiscSolver::check_finite() const {
