@@ -56,6 +56,7 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
     guess = carried<Pair>(old_pairs, guess, pairs());
     carry<Pair>(pair_history, old_pairs, pairs());
     pair_contact.assign(pairs().size(), Contact{});
+    pair_opening.assign(pairs().size(), Opening{});
     first_.assign(n + 1, 0);
     second_start_.assign(n + 1, 0);
     for (const Pair& pair : pairs()) {
@@ -78,6 +79,16 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
     }
     carry<WallPair>(wall_history, old_walls, wall_pair_);
     wall_contact.assign(wall_pair_.size(), Contact{});
+    wall_opening.assign(wall_pair_.size(), Opening{});
+}
+
+void ContactList::find_shares(const Grains& grains) {
+    const auto weight = [&](int g) {
+        const auto k = static_cast<std::size_t>(g);
+        return grains.grain[k].radius * grains.material_of(k).plane_E;
+    };
+    share.clear();
+    for (const Pair& pair : pairs()) share.push_back(weight(pair.j) / (weight(pair.i) + weight(pair.j)));
 }
 
 }  // namespace softgrain::sdem

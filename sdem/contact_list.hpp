@@ -35,15 +35,20 @@ class ContactList {
     /// Finds all candidates; what touching pairs remember moves with them. center [n] and skin [m], reach [n]
     /// largest half axes [m].
     void build(std::span<const Vec2> center, std::span<const double> reach, const Box& box, double skin);
+    /// Shares of the pairs: the smaller and the softer grain gives way.
+    void find_shares(const Grains& grains);
     std::span<const Pair> pairs() const { return neighbors_.pairs(); }
     std::span<const Image> images() const { return neighbors_.images(); }
     std::span<const WallPair> wall_pairs() const { return wall_pair_; }
     const NeighborList& neighbors() const { return neighbors_; }
     const Box& built_box() const { return built_box_; }
 
+    std::vector<double> share;          ///< [pairs] of the overlap that i gives way to
     std::vector<Contact> pair_contact;  ///< [pairs]
     std::vector<Contact> wall_contact;  ///< [wall pairs]; i is the grain
     std::vector<ChordGuess> guess;      ///< [pairs]
+    /// [pairs] and [wall pairs], for laws that use them.
+    std::vector<Opening> pair_opening, wall_opening;
     ContactHistory pair_history, wall_history;
 
     /// Slots of the pairs whose first grain is g: [first(g), first(g + 1)).

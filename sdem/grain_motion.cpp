@@ -46,7 +46,8 @@ void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
             block.moment.yy[l] -= sums.pressed;
             block.pressure[l] = in.pressure[g];
         } else {
-            block.caps[l] = Mollon2022::cap_fraction(sums.caps, sums.covered, block.area[l]);
+            block.caps[l] = Mollon2022::cap_fraction(sums.caps, covered_outline(in.forces.contacts.list, g),
+                                                     block.area[l]);
         }
         const Vec2 flow = in.flow.box.periodic ? in.flow.affine_velocity(grains.center[g]) : Vec2::Zero();
         block.flow_vx[l] = flow.x();
@@ -81,7 +82,7 @@ StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
 
 }  // namespace
 
-std::size_t find_pressures(const Grains& grains, const ContactList& contacts, GrainLaw law,
+std::size_t find_pressures(const Grains& grains, const ContactView& contacts, GrainLaw law,
                            Pressures& pressures, std::size_t begin, std::size_t end) {
     PressureBlock block;
     block.count = static_cast<int>(end - begin);
@@ -119,7 +120,7 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
         grain.vx = block.vx[l];
         grain.vy = block.vy[l];
         grain.F_rate = block.F_rate[l];
-        grains.center[g] = Vec2{grain.x, grain.y};
+        grains.next_center[g] = Vec2{grain.x, grain.y};
         grains.reach[g] = block.reach[l];
         if (in.law.imposes_area) memory.caps_before[g] = block.caps_before[l];
         if (in.law.plastic) {

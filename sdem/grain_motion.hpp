@@ -44,7 +44,7 @@ struct Pressures {
 
 /// Fills the pressures of the grains [begin, end); the first grain whose area ratio Je is not above 0.04, or
 /// n.
-std::size_t find_pressures(const Grains& grains, const ContactList& contacts, GrainLaw law,
+std::size_t find_pressures(const Grains& grains, const ContactView& contacts, GrainLaw law,
                            Pressures& pressures, std::size_t begin, std::size_t end);
 
 struct MotionInput {
@@ -54,7 +54,8 @@ struct MotionInput {
     WallMotion flow;  ///< of a periodic cell: works are done by the motion against it
 };
 
-/// One step of the grains [begin, end), at most grains_per_block of them: Eq. 58, 59. `bad` becomes the first
+/// One step of the grains [begin, end), at most grains_per_block of them: Eq. 58, 59. New centres go to
+/// grains.next_center, as other grains still need the old ones. `bad` becomes the first
 /// grain that moved by more than half its radius, is crushed or turned inside out.
 StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
                      std::size_t end, std::size_t& bad);

@@ -7,6 +7,85 @@
 
 namespace softgrain::sdem {
 
+/// One grain's side of a touching contact.
+struct Side {
+    const Contact& contact;
+    std::size_t index;    ///< of the pair, or of the wall pair
+    int other;            ///< the other grain, or -1 - wall
+    bool second;          ///< this grain is the contact's j
+    double share;         ///< of the overlap that this grain gives way to
+    double arm_x, arm_y;  ///< from this grain's centre to the mid-point of the chord [m]
+
+    bool wall() const { return other < 0; }
+    double sign() const { return second ? 1.0 : -1.0; }
+    double cap() const { return second ? contact.cap_j : contact.cap_i; }
+    double gives_way() const { return share * contact.lens(); }  ///< [m^2]
+};
+
+/// All contacts, as the grains see them.
+struct ContactView {
+    const ContactList& list;
+    std::span<const Vec2> center;  ///< [n] [m]
+    const Box& cell;               ///< whose images the list means
+
+    /// visit(side) for all that grain g touches: walls, pairs in which it comes first, the other pairs.
+    template <class Visit>
+    void each_side_of(std::size_t g, const Visit& visit) const {
+        for (std::size_t w = list.wall_first(g); w < list.wall_first(g + 1); ++w) {
+            const Contact& c = list.wall_contact[w];
+            if (c.touching()) visit(Side{c, w, -1 - list.wall_pairs()[w].wall, false, 1.0, c.arm_x, c.arm_y});
+        }
+        for (std::size_t k = list.first(g); k < list.first(g + 1); ++k) {
+            const Contact& c = list.pair_contact[k];
+            if (c.touching()) visit(Side{c, k, list.pairs()[k].j, false, list.share[k], c.arm_x, c.arm_y});
+        }
+        for (const std::uint32_t k : list.second(g)) {
+            const Contact& c = list.pair_contact[k];
+            if (!c.touching()) continue;
+            const int i = list.pairs()[k].i;
+            Vec2 branch = center[g] - center[static_cast<std::size_t>(i)];
+            if (!list.images().empty()) branch += cell.image(list.images()[k]);
+            visit(Side{c, k, i, true, 1.0 - list.share[k], c.arm_x - branch.x(), c.arm_y - branch.y()});
+        }
+    }
+};
+
+/// How a contact's forces are put together.
+struct ForceSource {
+    ContactView contacts;
+    /// [n] p G' of each grain: its pressure on a contact's share of the overlap [N/m]; empty if the law has
+    /// none.
+    std::span<const double> push;
+    bool sliding;  ///< tangential forces are to be added
+
+    /// Elastic force per chord length of pair k or wall pair w [N/m].
+    double elastic(std::size_t k) const {
+        const double q = contacts.list.pair_contact[k].q;
+        if (push.empty()) return q;
+        const Pair& pair = contacts.list.pairs()[k];
+        const double share = contacts.list.share[k];
+        return q + share * push[static_cast<std::size_t>(pair.i)] +
+               (1.0 - share) * push[static_cast<std::size_t>(pair.j)];
+    }
+    double elastic_at_wall(std::size_t w) const {
+        const double q = contacts.list.wall_contact[w].q;
+        return push.empty() ? q : q + push[static_cast<std::size_t>(contacts.list.wall_pairs()[w].grain)];
+    }
+    /// The same for the contact of grain g.
+    double elastic(const Side& side, std::size_t g) const {
+        if (push.empty()) return side.contact.q;
+        if (side.wall()) return side.contact.q + push[g];
+        return side.contact.q + side.share * push[g] +
+               (1.0 - side.share) * push[static_cast<std::size_t>(side.other)];
+    }
+    /// Force on j along the turned chord, per chord length [N/m].
+    double tangential(const Side& side) const {
+        if (!sliding) return 0.0;
+        const ContactHistory& history = side.wall() ? contacts.list.wall_history : contacts.list.pair_history;
+        return history.tangential[side.index];
+    }
+};
+
 /// Sums over one grain's contacts. r: from its centre to the mid-point of the chord.
 struct GrainSums {
     double fx = 0.0, fy = 0.0;                  ///< sum f [N]
@@ -14,103 +93,58 @@ struct GrainSums {
     double pressed = 0.0;                       ///< sum q S [N m]
     double damping_fx = 0.0, damping_fy = 0.0;  ///< part of f due to dashpots
     Tensor damping_moment{0.0, 0.0, 0.0, 0.0};
-    double caps = 0.0;     ///< sum S [m^2]
-    double covered = 0.0;  ///< sum psi / pi: share of the outline that contacts cover
+    double caps = 0.0;  ///< sum S [m^2]
 };
 
-/// One grain's side of a touching contact.
-struct Side {
-    int other;          ///< the other grain, or -1 - wall
-    bool second;        ///< this grain is the contact's j
-    double tangential;  ///< force on j along the turned chord, per chord length [N/m]
-
-    double sign() const { return second ? 1.0 : -1.0; }
-    double share(const Contact& c) const { return second ? 1.0 - c.share_i : c.share_i; }
-    Vec2 arm(const Contact& c) const { return second ? Vec2{c.arm_jx, c.arm_jy} : Vec2{c.arm_ix, c.arm_iy}; }
-    double cap(const Contact& c) const { return second ? c.cap_j : c.cap_i; }
-    double psi(const Contact& c) const { return static_cast<double>(second ? c.psi_j : c.psi_i); }
-};
-
-/// How a contact's forces are put together.
-struct ForceSource {
-    const ContactList& contacts;
-    /// [n] p G' of each grain: its pressure on a contact's share of the overlap [N/m]; empty if the law has
-    /// none.
-    std::span<const double> push;
-    bool sliding;  ///< tangential forces are to be added
-
-    /// Elastic and damping force per chord length [N/m].
-    double elastic(const Contact& c, std::size_t i, std::size_t j) const {
-        return push.empty() ? c.q : c.q + c.share_i * push[i] + (1.0 - c.share_i) * push[j];
-    }
-    double elastic_at_wall(const Contact& c, std::size_t g) const {
-        return push.empty() ? c.q : c.q + push[g];
-    }
-    double elastic(const Contact& c, const Side& side, std::size_t g) const {
-        if (side.other < 0) return elastic_at_wall(c, g);
-        const auto other = static_cast<std::size_t>(side.other);
-        return side.second ? elastic(c, other, g) : elastic(c, g, other);
-    }
-};
-
-/// Adds one side of a contact with the elastic force q per chord length.
-inline void add_side(GrainSums& s, const Contact& c, const Side& side, double q) {
-    const double sign = side.sign(), cap = side.cap(c);
-    const double x = side.second ? c.arm_jx : c.arm_ix, y = side.second ? c.arm_jy : c.arm_iy;
-    const double dashpot = damping_without_pull(q, c.q_damping);
-    const double normal = sign * (q + dashpot), along = sign * side.tangential, damping = sign * dashpot;
-    const double fx = normal * c.chord_x - along * c.chord_y, fy = normal * c.chord_y + along * c.chord_x;
-    const double dx = damping * c.chord_x, dy = damping * c.chord_y;
-    s.fx += fx;
-    s.fy += fy;
-    s.moment.xx += fx * x;
-    s.moment.xy += fx * y;
-    s.moment.yx += fy * x;
-    s.moment.yy += fy * y;
-    s.pressed += q * cap;
-    s.damping_fx += dx;
-    s.damping_fy += dy;
-    s.damping_moment.xx += dx * x;
-    s.damping_moment.xy += dx * y;
-    s.damping_moment.yx += dy * x;
-    s.damping_moment.yy += dy * y;
-    s.caps += cap;
-    s.covered += side.psi(c);
-}
-
-/// visit(contact, side) for all that grain g touches: walls, pairs in which it comes first, the other pairs.
-template <class Visit>
-inline void each_contact_of(const ContactList& list, std::size_t g, bool sliding, const Visit& visit) {
-    for (std::size_t w = list.wall_first(g); w < list.wall_first(g + 1); ++w)
-        if (list.wall_contact[w].touching())
-            visit(list.wall_contact[w], Side{-1 - list.wall_pairs()[w].wall, false,
-                                             sliding ? list.wall_history.tangential[w] : 0.0});
-    for (std::size_t k = list.first(g); k < list.first(g + 1); ++k)
-        if (list.pair_contact[k].touching())
-            visit(list.pair_contact[k],
-                  Side{list.pairs()[k].j, false, sliding ? list.pair_history.tangential[k] : 0.0});
-    for (const std::uint32_t k : list.second(g))
-        if (list.pair_contact[k].touching())
-            visit(list.pair_contact[k],
-                  Side{list.pairs()[k].i, true, sliding ? list.pair_history.tangential[k] : 0.0});
-}
-
-/// Sums of grain g, in the order of each_contact_of.
+/// Sums of grain g, in the order of each_side_of.
 inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
     GrainSums s;
-    each_contact_of(from.contacts, g, from.sliding, [&](const Contact& c, const Side& side) {
-        add_side(s, c, side, from.elastic(c, side, g));
+    from.contacts.each_side_of(g, [&](const Side& side) {
+        const Contact& c = side.contact;
+        const double q = from.elastic(side, g), dashpot = damping_without_pull(q, c.q_damping);
+        const double normal = side.sign() * (q + dashpot), along = side.sign() * from.tangential(side);
+        const double damping = side.sign() * dashpot;
+        const double fx = normal * c.chord_x - along * c.chord_y, fy = normal * c.chord_y + along * c.chord_x;
+        const double dx = damping * c.chord_x, dy = damping * c.chord_y;
+        s.fx += fx;
+        s.fy += fy;
+        s.moment.xx += fx * side.arm_x;
+        s.moment.xy += fx * side.arm_y;
+        s.moment.yx += fy * side.arm_x;
+        s.moment.yy += fy * side.arm_y;
+        s.pressed += q * side.cap();
+        s.damping_fx += dx;
+        s.damping_fy += dy;
+        s.damping_moment.xx += dx * side.arm_x;
+        s.damping_moment.xy += dx * side.arm_y;
+        s.damping_moment.yx += dy * side.arm_x;
+        s.damping_moment.yy += dy * side.arm_y;
+        s.caps += side.cap();
     });
-    s.covered *= std::numbers::inv_pi;
     return s;
 }
 
 /// T = sum of the overlaps that grain g gives way to / its reference area.
-inline double given_way(const ContactList& list, const Grain& grain, std::size_t g) {
+inline double given_way(const ContactView& contacts, const Grain& grain, std::size_t g) {
+    const ContactList& list = contacts.list;
     double sum = 0.0;
-    each_contact_of(list, g, false,
-                    [&](const Contact& c, const Side& side) { sum += side.share(c) * (c.cap_i + c.cap_j); });
+    for (std::size_t w = list.wall_first(g); w < list.wall_first(g + 1); ++w)
+        sum += list.wall_contact[w].lens();
+    for (std::size_t k = list.first(g); k < list.first(g + 1); ++k)
+        sum += list.share[k] * list.pair_contact[k].lens();
+    for (const std::uint32_t k : list.second(g)) sum += (1.0 - list.share[k]) * list.pair_contact[k].lens();
     return sum / grain.reference_area();
+}
+
+/// sum psi / pi: share of grain g's outline that contacts cover, for laws that use it.
+inline double covered_outline(const ContactList& list, std::size_t g) {
+    double sum = 0.0;
+    for (std::size_t w = list.wall_first(g); w < list.wall_first(g + 1); ++w)
+        sum += static_cast<double>(list.wall_opening[w].psi_i);
+    for (std::size_t k = list.first(g); k < list.first(g + 1); ++k)
+        sum += static_cast<double>(list.pair_opening[k].psi_i);
+    for (const std::uint32_t k : list.second(g)) sum += static_cast<double>(list.pair_opening[k].psi_j);
+    return std::numbers::inv_pi * sum;
 }
 
 }  // namespace softgrain::sdem

@@ -1,11 +1,10 @@
 #pragma once
 // The state of the grains, and what their material says.
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "sdem/geometry/ellipse.hpp"
-#include "sdem/tensor.hpp"
+#include "sdem/grain.hpp"
 
 namespace softgrain::sdem {
 
@@ -18,21 +17,9 @@ inline Tensor tensor_of(const Mat2& m) {
     return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)};
 }
 
-/// One grain: the material point X of the reference ellipse (half axes a along x and b along y; a disc if
-/// equal) is at c + F X. Two cache lines.
-struct alignas(64) Grain {
-    double x, y;    ///< c [m]
-    Tensor F;       ///< [-]
-    double vx, vy;  ///< c' [m/s]
-    Tensor F_rate;  ///< F' [1/s]
-    double a, b;    ///< reference half axes [m]
-    double mass;    ///< [kg]
-    double radius;  ///< sqrt(a b) [m]
-
-    double reference_area() const { return std::numbers::pi * a * b; }
-    Ellipse ellipse() const { return make_ellipse(Vec2{x, y}, matrix_of(F), Vec2{a, b}); }
-};
-static_assert(sizeof(Grain) == 128);
+inline Ellipse ellipse_of(const Grain& g) {
+    return make_ellipse(Vec2{g.x, g.y}, matrix_of(g.F), Vec2{g.a, g.b});
+}
 
 /// Constants of one grain class.
 struct GrainMaterial {
@@ -46,14 +33,11 @@ struct GrainMaterial {
     double yield;             ///< shear stress at which the grain flows [N/m]; infinite if it does not
 };
 
-inline double reach_of(const Grain& g) {
-    return reach_of(g.F, g.a, g.b);
-}
-
 /// All grains, sorted in space so that neighbours lie close in memory.
 struct Grains {
     std::vector<Grain> grain;               ///< [n]
     std::vector<Vec2> center;               ///< [n] c again, for the search of neighbours [m]
+    std::vector<Vec2> next_center;          ///< [n] c after the step being made [m]
     std::vector<double> reach;              ///< [n] largest half axis [m]
     std::vector<std::uint8_t> grain_class;  ///< [n]; empty if there is one class only
     std::vector<GrainMaterial> material;    ///< [classes]

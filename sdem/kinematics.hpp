@@ -104,7 +104,7 @@ struct Motion {
 
     /// F' after F was corrected: allowed at the new F, with the angular momentum it had before.
     static SOFTGRAIN_INLINE Tensor carried(const Tensor& before, const Tensor& corrected, const Tensor& rate,
-                          const Inertia& inertia) {
+                                           const Inertia& inertia) {
         const Tensor kept = allowed(corrected, rate, inertia), W = corrected.turned();
         const double lost =
             contraction(inertia.times(rate), before.turned()) - contraction(inertia.times(kept), W);

@@ -119,7 +119,8 @@ SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, double dt) {
             -dt * (block.fx[l] * mean_vx + block.fy[l] * mean_vy + contraction(moment, mean_rate));
         if constexpr (Motion::constrains)  // the constraint's reaction
             stored -= contraction(inertia.times(new_rate - free_rate), mean_rate);
-        if constexpr (dilates) extra = 0.5 * dilation_rate(F, new_rate) *
+        if constexpr (dilates)
+            extra = 0.5 * dilation_rate(F, new_rate) *
                     dilation_momentum(F, new_rate, inertia, block.dilation_inertia[l]);
         block.new_vx[l] = new_vx;
         block.new_vy[l] = new_vy;

@@ -6,122 +6,90 @@
 namespace softgrain::sdem {
 namespace {
 
-constexpr int lanes = ChordBatch::capacity;
-
-/// One grain's side of a lane.
-struct SideOfLane {
-    double *axx, *axy, *ayx, *ayy, *rxx, *rxy, *ryx, *ryy, *mass, *radius, *E, *plane_E;
-};
-
-inline void put_side(const SideOfLane& to, int l, const Grain& g, const GrainMaterial& m, bool with_rates) {
-    to.axx[l] = g.a * g.F.xx;
-    to.axy[l] = g.b * g.F.xy;
-    to.ayx[l] = g.a * g.F.yx;
-    to.ayy[l] = g.b * g.F.yy;
-    if (with_rates) {
-        to.rxx[l] = g.a * g.F_rate.xx;
-        to.rxy[l] = g.b * g.F_rate.xy;
-        to.ryx[l] = g.a * g.F_rate.yx;
-        to.ryy[l] = g.b * g.F_rate.yy;
-    }
-    to.mass[l] = g.mass;
-    to.radius[l] = g.radius;
-    to.E[l] = m.E;
-    to.plane_E[l] = m.plane_E;
-}
-
-/// One batch in the making.
+/// One batch of near pairs after the other.
 class Work {
   public:
-    Work(const PairInput& in, const PairOutput& out) : in_(in), out_(out) {}
+    Work(const PairInput& in, const PairOutput& out, PairLanes& batch) : in_(in), out_(out), batch_(batch) {
+        batch_.count = 0;
+        if (!many_classes())
+            for (int l = 0; l < PairLanes::capacity; ++l) put_material(l, 0, 0);
+    }
 
-    void add(std::size_t k, double dx, double dy) {
+    void add(std::size_t k) {
         const auto i = static_cast<std::size_t>(in_.pair[k].i), j = static_cast<std::size_t>(in_.pair[k].j);
-        const bool swapped = in_.grains.grain[i].radius < in_.grains.grain[j].radius;
-        const std::size_t a = swapped ? j : i, b = swapped ? i : j;
-        const Grain &ga = in_.grains.grain[a], &gb = in_.grains.grain[b];
-        PairLanes& w = batch_;
-        ChordBatch& c = w.chord;
-        const int l = c.count++;
-        w.pair[l] = k;
-        w.swapped[l] = swapped;
-        const double sign = swapped ? -1.0 : 1.0;
-        c.dx[l] = sign * dx;
-        c.dy[l] = sign * dy;
-        if (in_.with_rates) {
-            double vx = gb.vx - ga.vx, vy = gb.vy - ga.vy;
-            if (!in_.image.empty()) {
-                const Vec2 offset = in_.motion.image_velocity(in_.image[k]);
-                vx += sign * offset.x();
-                vy += sign * offset.y();
-            }
-            w.dvx[l] = vx;
-            w.dvy[l] = vy;
+        const bool turned = in_.grains.grain[i].radius < in_.grains.grain[j].radius;
+        const std::size_t a = turned ? j : i, b = turned ? i : j;
+        const int l = batch_.count++;
+        batch_.pair[l] = k;
+        batch_.a[l] = in_.grains.grain[a];
+        batch_.b[l] = in_.grains.grain[b];
+        batch_.guess[l] = out_.guess[k];
+        batch_.turn[l] = turned ? -1.0 : 1.0;
+        batch_.share_a[l] = turned ? 1.0 - in_.share[k] : in_.share[k];
+        if (!in_.image.empty()) {
+            const Vec2 offset = batch_.turn[l] * in_.motion.box.image(in_.image[k]);
+            const Vec2 velocity = batch_.turn[l] * in_.motion.image_velocity(in_.image[k]);
+            batch_.offset_x[l] = offset.x();
+            batch_.offset_y[l] = offset.y();
+            batch_.offset_vx[l] = velocity.x();
+            batch_.offset_vy[l] = velocity.y();
         }
-        put_side({c.a_xx, c.a_xy, c.a_yx, c.a_yy, w.a_rxx, w.a_rxy, w.a_ryx, w.a_ryy, w.mass_a, w.radius_a,
-                  w.E_a, w.plane_E_a},
-                 l, ga, in_.grains.material_of(a), in_.with_rates);
-        put_side({c.b_xx, c.b_xy, c.b_yx, c.b_yy, w.b_rxx, w.b_rxy, w.b_ryx, w.b_ryy, w.mass_b, w.radius_b,
-                  w.E_b, w.plane_E_b},
-                 l, gb, in_.grains.material_of(b), in_.with_rates);
-        const ChordGuess& guess = out_.guess[k];
-        c.end_ax[l] = guess.ax;
-        c.end_ay[l] = guess.ay;
-        c.end_bx[l] = guess.bx;
-        c.end_by[l] = guess.by;
-        if (c.count == lanes) finish();
+        if (many_classes()) put_material(l, in_.grains.grain_class[a], in_.grains.grain_class[b]);
+        if (batch_.count == PairLanes::capacity) finish();
     }
 
     void finish() {
-        if (batch_.chord.count == 0) return;
+        if (batch_.count == 0) return;
         if (in_.geometry == Geometry::batch)
-            solve_chords(batch_.chord);
+            find_chords(batch_, in_.with_rates, !in_.image.empty());
         else
-            std::fill_n(batch_.chord.sound, lanes, 0.0);
-        keep_touching();
+            skip_chords(batch_, in_.with_rates, !in_.image.empty());
+        for (int l = 0; l < batch_.count; ++l)
+            if (batch_.chord.sound[l] == 0.0) solve_alone(l);
         answer_lanes(batch_, in_.law, in_.with_rates, in_.contact_damping);
-        for (int l = 0; l < batch_.chord.count; ++l) store(l);
-        batch_.chord.count = 0;
+        for (int l = 0; l < batch_.count; ++l) {
+            const std::size_t k = batch_.pair[l];
+            if (batch_.contact[l].touching() && !out_.contact[k].touching()) news_.closed.push_back(k);
+            out_.contact[k] = batch_.contact[l];
+            out_.guess[k] = batch_.guess[l];
+            if (!(batch_.stiffness[l] > 0.0)) report(k, Overlap::chord);
+        }
+        if (!out_.opening.empty())
+            for (int l = 0; l < batch_.count; ++l) out_.opening[batch_.pair[l]] = batch_.opening[l];
+        if (!out_.slip_rate.empty())
+            for (int l = 0; l < batch_.count; ++l) out_.slip_rate[batch_.pair[l]] = batch_.slip[l];
+        batch_.count = 0;
     }
 
     PairNews take_news() { return std::move(news_); }
 
   private:
-    /// Solves by the careful way what the batch could not; lanes without a contact are closed up.
-    void keep_touching() {
-        ChordBatch& c = batch_.chord;
-        int kept = 0;
-        for (int l = 0; l < c.count; ++l) {
-            const std::size_t k = batch_.pair[l];
-            if (c.sound[l] != 0.0) {
-                out_.guess[k] = {static_cast<float>(c.end_ax[l]), static_cast<float>(c.end_ay[l]),
-                                 static_cast<float>(c.end_bx[l]), static_cast<float>(c.end_by[l])};
-            } else if (!solve_alone(l)) {
-                out_.contact[k] = Contact{};
-                continue;
-            }
-            if (kept != l) move_lane(l, kept);
-            ++kept;
-        }
-        c.count = kept;
+    bool many_classes() const { return !in_.grains.grain_class.empty(); }
+
+    void put_material(int l, std::size_t a, std::size_t b) {
+        batch_.E_a[l] = in_.grains.material[a].E;
+        batch_.E_b[l] = in_.grains.material[b].E;
+        batch_.plane_E_a[l] = in_.grains.material[a].plane_E;
+        batch_.plane_E_b[l] = in_.grains.material[b].plane_E;
     }
 
-    bool solve_alone(int l) {
+    /// The careful way, for a lane that the batch could not solve.
+    void solve_alone(int l) {
         ChordBatch& c = batch_.chord;
-        const std::size_t k = batch_.pair[l];
-        const auto i = static_cast<std::size_t>(in_.pair[k].i), j = static_cast<std::size_t>(in_.pair[k].j);
-        const Grain& ga = in_.grains.grain[batch_.swapped[l] ? j : i];
-        const Grain& gb = in_.grains.grain[batch_.swapped[l] ? i : j];
-        Ellipse a = ga.ellipse(), b = gb.ellipse();
+        Ellipse a = ellipse_of(batch_.a[l]), b = ellipse_of(batch_.b[l]);
         a.center.setZero();
         b.center = Vec2{c.dx[l], c.dy[l]};
-        WarmStart warm = out_.guess[k].warm_start();
+        WarmStart warm{Vec2{c.end_ax[l], c.end_ay[l]}, Vec2{c.end_bx[l], c.end_by[l]}};
         const Chord chord = in_.geometry == Geometry::polygon ? polygon_chord(a, b) : chord_of(a, b, warm);
-        out_.guess[k] = ChordGuess::of(warm);
+        c.end_ax[l] = warm.a.x();
+        c.end_ay[l] = warm.a.y();
+        c.end_bx[l] = warm.b.x();
+        c.end_by[l] = warm.b.y();
         if (!chord.touching()) {
-            if (chord.overlap != Overlap::none) report(k, chord.overlap);
-            return false;
+            if (chord.overlap != Overlap::none) report(batch_.pair[l], chord.overlap);
+            return;
         }
+        c.sound[l] = 1.0;
         c.chord_x[l] = chord.length * chord.normal.x();
         c.chord_y[l] = chord.length * chord.normal.y();
         c.mid_x[l] = chord.point.x();
@@ -131,60 +99,6 @@ class Work {
         c.cover_a[l] = chord.psi_i;
         c.cover_b[l] = chord.psi_j;
         c.depth[l] = chord.depth_i + chord.depth_j;
-        return true;
-    }
-
-    void move_lane(int from, int to) {
-        PairLanes& w = batch_;
-        ChordBatch& c = w.chord;
-        w.pair[to] = w.pair[from];
-        w.swapped[to] = w.swapped[from];
-        for (double* array :
-             {c.dx,       c.dy,      c.a_xx,    c.a_xy,      c.a_yx,     c.a_yy,   c.b_xx,   c.b_xy,
-              c.b_yx,     c.b_yy,    c.chord_x, c.chord_y,   c.mid_x,    c.mid_y,  c.cap_a,  c.cap_b,
-              c.cover_a,  c.cover_b, c.depth,   w.dvx,       w.dvy,      w.a_rxx,  w.a_rxy,  w.a_ryx,
-              w.a_ryy,    w.b_rxx,   w.b_rxy,   w.b_ryx,     w.b_ryy,    w.mass_a, w.mass_b, w.radius_a,
-              w.radius_b, w.E_a,     w.E_b,     w.plane_E_a, w.plane_E_b})
-            array[to] = array[from];
-    }
-
-    void store(int l) {
-        const PairLanes& w = batch_;
-        const ChordBatch& c = w.chord;
-        const std::size_t k = w.pair[l];
-        Contact& to = out_.contact[k];
-        if (!to.touching()) news_.closed.push_back(k);
-        if (w.swapped[l]) {
-            to.chord_x = -c.chord_x[l];
-            to.chord_y = -c.chord_y[l];
-            to.arm_ix = c.mid_x[l] - c.dx[l];
-            to.arm_iy = c.mid_y[l] - c.dy[l];
-            to.arm_jx = c.mid_x[l];
-            to.arm_jy = c.mid_y[l];
-            to.cap_i = c.cap_b[l];
-            to.cap_j = c.cap_a[l];
-            to.psi_i = static_cast<float>(c.cover_b[l]);
-            to.psi_j = static_cast<float>(c.cover_a[l]);
-            to.share_i = 1.0 - w.share_a[l];
-        } else {
-            to.chord_x = c.chord_x[l];
-            to.chord_y = c.chord_y[l];
-            to.arm_ix = c.mid_x[l];
-            to.arm_iy = c.mid_y[l];
-            to.arm_jx = c.mid_x[l] - c.dx[l];
-            to.arm_jy = c.mid_y[l] - c.dy[l];
-            to.cap_i = c.cap_a[l];
-            to.cap_j = c.cap_b[l];
-            to.psi_i = static_cast<float>(c.cover_a[l]);
-            to.psi_j = static_cast<float>(c.cover_b[l]);
-            to.share_i = w.share_a[l];
-        }
-        to.q = w.q[l];
-        to.q_damping = w.q_damping[l];
-        to.stiffness = static_cast<float>(w.stiffness[l]);
-        to.depth = static_cast<float>(c.depth[l]);
-        if (!out_.slip_rate.empty()) out_.slip_rate[k] = w.slip[l];
-        if (!(w.stiffness[l] > 0.0)) report(k, Overlap::chord);
     }
 
     void report(std::size_t k, Overlap overlap) {
@@ -193,29 +107,33 @@ class Work {
 
     const PairInput& in_;
     const PairOutput& out_;
-    PairLanes batch_;
+    PairLanes& batch_;
     PairNews news_;
 };
 
 }  // namespace
 
 PairNews evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end) {
-    Work work(in, out);
+    static thread_local PairLanes lanes;
+    Work work(in, out, lanes);
+    const bool periodic = !in.image.empty();
     for (std::size_t k = begin; k < end; ++k) {
         const auto i = static_cast<std::size_t>(in.pair[k].i), j = static_cast<std::size_t>(in.pair[k].j);
         const Vec2 &xi = in.grains.center[i], &xj = in.grains.center[j];
         double dx = xj.x() - xi.x(), dy = xj.y() - xi.y();
-        if (!in.image.empty()) {
+        if (periodic) {
             const Vec2 offset = in.motion.box.image(in.image[k]);
             dx += offset.x();
             dy += offset.y();
         }
         const double reach = in.grains.reach[i] + in.grains.reach[j];
         if (dx * dx + dy * dy < reach * reach) {
-            work.add(k, dx, dy);
+            work.add(k);
         } else if (out.contact[k].touching()) {
             out.contact[k] = Contact{};
             out.guess[k] = ChordGuess{};
+            if (!out.opening.empty()) out.opening[k] = Opening{};
+            if (!out.slip_rate.empty()) out.slip_rate[k] = 0.0;
         }
     }
     work.finish();

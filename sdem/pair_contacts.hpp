@@ -19,23 +19,13 @@ enum class Geometry : std::uint8_t {
     polygon,  ///< 360-sided polygons as in the paper; the base line for speed
 };
 
-/// The ends of a contact's last chord (see WarmStart). A guess only: single precision is enough.
-struct ChordGuess {
-    float ax = 0.0F, ay = 0.0F, bx = 0.0F, by = 0.0F;
-
-    static ChordGuess of(const WarmStart& w) {
-        return {static_cast<float>(w.a.x()), static_cast<float>(w.a.y()), static_cast<float>(w.b.x()),
-                static_cast<float>(w.b.y())};
-    }
-    WarmStart warm_start() const { return {Vec2{ax, ay}, Vec2{bx, by}}; }
-};
-
 /// What the evaluation of pairs reads.
 struct PairInput {
     const Grains& grains;
-    std::span<const Pair> pair;    ///< [pairs]
-    std::span<const Image> image;  ///< [pairs] which image of j; empty without a periodic cell
-    WallMotion motion;             ///< of the cell, for the images
+    std::span<const Pair> pair;     ///< [pairs]
+    std::span<const double> share;  ///< [pairs] of the overlap that i gives way to
+    std::span<const Image> image;   ///< [pairs] which image of j; empty without a periodic cell
+    WallMotion motion;              ///< of the cell, for the images
     ContactLaw law;
     Geometry geometry;
     double contact_damping;
@@ -46,6 +36,7 @@ struct PairInput {
 struct PairOutput {
     std::span<Contact> contact;   ///< [pairs]
     std::span<ChordGuess> guess;  ///< [pairs], in and out
+    std::span<Opening> opening;   ///< [pairs], for laws that use it; else empty
     std::span<double>
         slip_rate;  ///< [pairs] tangential velocity of j against i along the chord [m/s]; or empty
 };

@@ -2,28 +2,42 @@
 // Many pairs side by side on their way through the contact law.
 #include <cstddef>
 
+#include "sdem/contact.hpp"
 #include "sdem/geometry/chord_batch.hpp"
+#include "sdem/grain.hpp"
 #include "sdem/motion_law.hpp"
 
 namespace softgrain::sdem {
 
-/// Up to 64 pairs side by side. `a` is the larger grain of each pair, as chords want it.
+/// Up to 64 pairs. `a` is the larger grain of each pair, as chords want it.
 struct PairLanes {
-    static constexpr int lanes = ChordBatch::capacity;
+    static constexpr int capacity = ChordBatch::capacity;
+    using Lane = double[capacity];
+
+    int count = 0;
+    std::size_t pair[capacity];
+    // In: both grains of each pair as they lie in memory, and the guess for the chord.
+    alignas(64) Grain a[capacity], b[capacity];
+    alignas(64) ChordGuess guess[capacity];
+    alignas(64) Lane offset_x, offset_y, offset_vx, offset_vy;  // of the image of b, periodic cells only
+    alignas(64) Lane turn;                                      // 1, or -1 if a is the pair's j
+    alignas(64) Lane share_a;                                   // share of the overlap that a gives way to
+    alignas(64) Lane E_a, E_b, plane_E_a, plane_E_b;
     ChordBatch chord;
-    std::size_t pair[lanes];
-    bool swapped[lanes];  ///< a is the pair's j
-    // Known of the grains: velocity of b against a, F' times reference axes, masses, radii, constants.
-    alignas(64) double dvx[lanes], dvy[lanes];
-    alignas(64) double a_rxx[lanes], a_rxy[lanes], a_ryx[lanes], a_ryy[lanes];
-    alignas(64) double b_rxx[lanes], b_rxy[lanes], b_ryx[lanes], b_ryy[lanes];
-    alignas(64) double mass_a[lanes], mass_b[lanes], radius_a[lanes], radius_b[lanes];
-    alignas(64) double E_a[lanes], E_b[lanes], plane_E_a[lanes], plane_E_b[lanes];
-    // The law's answer.
-    alignas(64) double q[lanes], q_damping[lanes], stiffness[lanes], share_a[lanes], slip[lanes];
+    // Between two loops.
+    alignas(64) Lane dvx, dvy, a_rxx, a_rxy, a_ryx, a_ryy, b_rxx, b_rxy, b_ryx, b_ryy, mass_a, mass_b, area_a,
+        area_b;
+    // Out.
+    alignas(64) Contact contact[capacity];
+    alignas(64) Opening opening[capacity];
+    alignas(64) Lane slip, stiffness;
 };
 
-/// Local forces of all lanes from their chords.
+/// Chords of all lanes but those that need the careful way, whose chord.sound is 0.
+void find_chords(PairLanes& batch, bool with_rates, bool periodic);
+/// Sets the lanes up for the careful way only.
+void skip_chords(PairLanes& batch, bool with_rates, bool periodic);
+/// Contacts of all lanes whose chord.sound is not 0; the others do not touch.
 void answer_lanes(PairLanes& batch, ContactLaw law, bool with_rates, double damping);
 
 }  // namespace softgrain::sdem

@@ -21,7 +21,7 @@ double adhesion_per_area(const SlidingLaw& law, double area) {
 SlidingWork grip(const SlidingLaw& law, const Gripping& how, Contact& c, ContactHistory& history,
                  std::size_t k, double dt) {
     SlidingWork work;
-    const double lens = c.cap_i + c.cap_j;
+    const double lens = c.lens();
     if (law.cohesion > 0.0 && law.adhesion_range > 0.0) {
         double& adhesion = history.adhesion[k];
         if (dt > 0.0) {
@@ -45,7 +45,7 @@ SlidingWork grip(const SlidingLaw& law, const Gripping& how, Contact& c, Contact
             history.tangential[k] = 0.0;
             return work;
         }
-        const double length = std::hypot(c.chord_x, c.chord_y);
+        const double length = std::sqrt(c.length_squared());
         const double most = how.friction * length * std::max(0.0, how.normal);
         if (dt == 0.0) return work;
         const double trial = spring + dt * history.slip_rate[k];
@@ -66,7 +66,7 @@ SlidingWork slide_pairs(const SlidingLaw& law, const ForceSource& from, const Gr
         const auto i = static_cast<std::size_t>(list.pairs()[k].i),
                    j = static_cast<std::size_t>(list.pairs()[k].j);
         Contact& c = list.pair_contact[k];
-        const double q = from.elastic(c, i, j);
+        const double q = from.elastic(k);
         const double E_i = grains.material_of(i).E, E_j = grains.material_of(j).E;
         const double area = std::min(grains.grain[i].reference_area(), grains.grain[j].reference_area());
         const Gripping how{q + damping_without_pull(q, c.q_damping), law.friction,
@@ -82,7 +82,7 @@ SlidingWork slide_walls(const SlidingLaw& law, const ForceSource& from, const Gr
     for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
         const auto g = static_cast<std::size_t>(list.wall_pairs()[k].grain);
         Contact& c = list.wall_contact[k];
-        const double q = from.elastic_at_wall(c, g);
+        const double q = from.elastic_at_wall(k);
         const Gripping how{q + damping_without_pull(q, c.q_damping), law.wall_friction,
                            law.stiffness * grains.material_of(g).E,
                            adhesion_per_area(law, grains.grain[g].reference_area())};
@@ -98,7 +98,7 @@ double stored_energy(const SlidingLaw& law, const Grains& grains, const ContactL
         if (law.slides()) sum += 0.5 * spring * history.spring[k] * history.spring[k];
         if (law.cohesion > 0.0)
             sum += build_up > 0.0 ? 0.5 * history.adhesion[k] * history.adhesion[k] / build_up
-                                  : -law.cohesion * (c.cap_i + c.cap_j);
+                                  : -law.cohesion * c.lens();
     };
     for (std::size_t k = 0; k < list.pairs().size(); ++k) {
         const auto i = static_cast<std::size_t>(list.pairs()[k].i),

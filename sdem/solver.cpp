@@ -26,7 +26,7 @@ constexpr int steps_per_time_step_check = 16;
 SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packing& packing,
                                const Options& options)
     : options_(options) {
-    motion_.box = packing.box;
+    motion_.box = lattice_ = packing.box;
     grains_.material = std::move(material);
     place(packing);
     const std::size_t n = size();
@@ -48,8 +48,8 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
     if (options_.motion.imposes_area)
         for (std::size_t g = 0; g < n; ++g) {
             const GrainSums sums = sum_contacts(forces(), g);
-            memory_.caps_before.push_back(
-                Mollon2022::cap_fraction(sums.caps, sums.covered, grains_.grain[g].reference_area()));
+            memory_.caps_before.push_back(Mollon2022::cap_fraction(sums.caps, covered_outline(contacts_, g),
+                                                                   grains_.grain[g].reference_area()));
         }
 }
 
@@ -74,6 +74,7 @@ void SoftDiscSolver::place(const Packing& packing) {
         g.mass = grains_.material[grain_class].density * g.reference_area();
         grains_.grain.push_back(g);
         grains_.center.push_back(packing.center[p]);
+        grains_.next_center.push_back(packing.center[p]);
         grains_.reach.push_back(reach_of(g));
         if (grains_.material.size() > 1)
             grains_.grain_class.push_back(static_cast<std::uint8_t>(grain_class));
@@ -81,7 +82,7 @@ void SoftDiscSolver::place(const Packing& packing) {
 }
 
 ForceSource SoftDiscSolver::forces() const {
-    return {contacts_, pressures_.push, options_.sliding.slides()};
+    return {contact_view(), pressures_.push, options_.sliding.slides()};
 }
 
 MotionInput SoftDiscSolver::motion_input() const {
@@ -103,7 +104,6 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     if (walls.box.periodic) follow_flow(walls);
     motion_ = walls;
 
-    const std::vector<Vec2> before = grains_.center;
     std::vector<StepWork> work(blocks());
     std::size_t bad = size();
     const MotionInput input = motion_input();
@@ -121,8 +121,10 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     last_step_ = dt;
     ++steps_;
     motion_.box = walls.after(dt);
-    if (bad < size()) throw_bad_grain(bad, before);
-    if (contacts_.stale(grains_, cell().box)) rebuild_contacts();
+    lattice_ = cell().box;
+    grains_.center.swap(grains_.next_center);  // next_center now holds the last one
+    if (bad < size()) throw_bad_grain(bad);
+    if (contacts_.stale(grains_, lattice_)) rebuild_contacts();
     update_contacts(dt);
 }
 
@@ -157,7 +159,9 @@ void SoftDiscSolver::rebuild_contacts() {
     }
     double mean_radius = 0.0;
     for (const Grain& g : grains_.grain) mean_radius += g.radius / static_cast<double>(size());
-    contacts_.build(grains_.center, grains_.reach, cell().box, options_.skin * mean_radius);
+    lattice_ = cell().box;
+    contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+    contacts_.find_shares(grains_);
 }
 
 void SoftDiscSolver::update_contacts(double dt) {
@@ -185,10 +189,13 @@ void SoftDiscSolver::limit_time_step() {
 void SoftDiscSolver::evaluate_all_pairs() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
-    const PairInput in{
-        grains_,           contacts_.pairs(),        contacts_.images(), lattice, options_.motion.contact_law,
-        options_.geometry, options_.contact_damping, with_rates};
-    const PairOutput out{contacts_.pair_contact, contacts_.guess, contacts_.pair_history.slip_rate};
+    const PairInput in{grains_,   contacts_.pairs(),           contacts_.share,   contacts_.images(),
+                       lattice,   options_.motion.contact_law, options_.geometry, options_.contact_damping,
+                       with_rates};
+    const bool opens = !has_potential();
+    const PairOutput out{contacts_.pair_contact, contacts_.guess,
+                         opens ? std::span<Opening>(contacts_.pair_opening) : std::span<Opening>(),
+                         contacts_.pair_history.slip_rate};
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<PairNews> news(chunks);
@@ -221,8 +228,8 @@ void SoftDiscSolver::find_all_pressures() {
 #pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        bad = std::min(bad,
-                       find_pressures(grains_, contacts_, options_.motion.grain_law, pressures_, begin, end));
+        bad = std::min(
+            bad, find_pressures(grains_, contact_view(), options_.motion.grain_law, pressures_, begin, end));
     }
     if (bad < size())
         throw DivergedError(packing_index(bad), "area", time_,
@@ -256,7 +263,7 @@ void SoftDiscSolver::sum_wall_forces() {
         const Contact& c = contacts_.wall_contact[k];
         if (!c.touching()) continue;
         const auto w = static_cast<std::size_t>(contacts_.wall_pairs()[k].wall);
-        const double q = source.elastic_at_wall(c, static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+        const double q = source.elastic_at_wall(k);
         const double dashpot = damping_without_pull(q, c.q_damping);
         const Vec2 chord{c.chord_x, c.chord_y};
         wall_force_[w] += (q + dashpot) * chord;
@@ -272,10 +279,12 @@ void SoftDiscSolver::sum_cell_stress() {
     for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
         const Contact& c = contacts_.pair_contact[k];
         if (!c.touching()) continue;
-        const auto i = static_cast<std::size_t>(contacts_.pairs()[k].i),
-                   j = static_cast<std::size_t>(contacts_.pairs()[k].j);
-        const double q = source.elastic(c, i, j), dashpot = damping_without_pull(q, c.q_damping);
-        const Vec2 chord{c.chord_x, c.chord_y}, branch{c.arm_ix - c.arm_jx, c.arm_iy - c.arm_jy};
+        const Pair& pair = contacts_.pairs()[k];
+        const double q = source.elastic(k), dashpot = damping_without_pull(q, c.q_damping);
+        const Vec2 chord{c.chord_x, c.chord_y};
+        const Vec2 branch = grains_.center[static_cast<std::size_t>(pair.j)] -
+                            grains_.center[static_cast<std::size_t>(pair.i)] +
+                            lattice_.image(contacts_.images()[k]);
         Vec2 force = (q + dashpot) * chord;
         if (source.sliding) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
         cell_stress_.total += force * branch.transpose();
@@ -313,9 +322,9 @@ void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& b
     if (!has_potential()) ledger.elastic += work - damped;
 }
 
-void SoftDiscSolver::throw_bad_grain(std::size_t g, const std::vector<Vec2>& before) const {
+void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
-    const double step = (grains_.center[g] - before[g]).norm();
+    const double step = (grains_.center[g] - grains_.next_center[g]).norm();
     if (!(step <= 0.5 * grain.radius))
         throw DivergedError(
             packing_index(g), "position", time_,
@@ -348,7 +357,7 @@ double SoftDiscSolver::potential_energy() const {
         const Grain& grain = grains_.grain[g];
         const GrainMaterial& m = grains_.material_of(g);
         const double area = grain.reference_area();
-        const double T = given_way(contacts_, grain, g);
+        const double T = given_way(contact_view(), grain, g);
         const double ratio = grain.F.det() - LensPotential::inflation(T, m.bulge).G;
         double density = 0.0;
         if (options_.motion.grain_law == GrainLaw::linear) {
@@ -361,8 +370,8 @@ double SoftDiscSolver::potential_energy() const {
             const PlasticState b = elastic_strain(grain.F, strain);
             density = 0.5 * m.mu * (b.xx + b.yy - 2.0) + LensPotential::dilation_energy(ratio, m.mu, m.kappa);
         }
-        each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
-            density += LensPotential::contact_energy(m.plane_E, side.share(c) * (c.cap_i + c.cap_j) / area);
+        contact_view().each_side_of(g, [&](const Side& side) {
+            density += LensPotential::contact_energy(m.plane_E, side.gives_way() / area);
         });
         sum += area * density;
     }

@@ -43,6 +43,7 @@ class SoftDiscSolver : public Solver {
     void update_contacts(double dt);
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
+    ContactView contact_view() const { return {contacts_, grains_.center, lattice_}; }
     ForceSource forces() const;
     MotionInput motion_input() const;
     bool has_potential() const { return options_.motion.contact_law == ContactLaw::lens_potential; }
@@ -76,7 +77,7 @@ class SoftDiscSolver : public Solver {
     double time_step_share() const;
     void limit_time_step();
     double grain_time_step(std::size_t g) const;
-    void throw_bad_grain(std::size_t g, const std::vector<Vec2>& before) const;
+    void throw_bad_grain(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
@@ -95,6 +96,7 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
+    Box lattice_;                         ///< the box now, on the lattice of the contact list
     double last_step_ = 0.0;              ///< [s]; 0 before the first step
     double time_step_ = 0.0;              ///< [s] found every few steps
     std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed

@@ -148,6 +148,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
     built.position = four(from, "sdem.built_box");
     built.tilt = from.number("sdem.built_tilt");
     contacts_.build(built_at, built_reach, built, contacts_.neighbors().skin());
+    contacts_.find_shares(grains_);
     get_sized(from, "sdem.guess", 4 * contacts_.pairs().size(), ends);
     for (std::size_t k = 0; k < contacts_.guess.size(); ++k)
         contacts_.guess[k] = {static_cast<float>(ends[4 * k]), static_cast<float>(ends[4 * k + 1]),
@@ -156,7 +157,8 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         load_history(from, "pair", contacts_.pairs().size(), contacts_.pair_history);
         load_history(from, "wall", contacts_.wall_pairs().size(), contacts_.wall_history);
     }
-    if (contacts_.stale(grains_, cell().box)) rebuild_contacts();  // never for a state as it was saved
+    lattice_ = cell().box;
+    if (contacts_.stale(grains_, lattice_)) rebuild_contacts();  // never for a state as it was saved
     update_contacts(0.0);
     time_step_ = from.number("sdem.time_step");  // to that evaluation every contact was a new one
 }
@@ -187,9 +189,7 @@ std::optional<std::string> SoftDiscSolver::outside_validity() const {
             return fmt::format("grain {} is strained by more than {:.0f} %: the law was checked up to there",
                                packing_index(g), 100.0 * largest_trusted_strain);
         if (options_.motion.imposes_area)
-            each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
-                covered += std::numbers::inv_pi * side.psi(c) / static_cast<double>(size());
-            });
+            covered += covered_outline(contacts_, g) / static_cast<double>(size());
     }
     if (covered > 1.0)
         return "contacts cover the whole outline of the mean grain: no pore is left, and Eq. 67 has no "

@@ -39,20 +39,22 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
                grains_.grain[other].reference_area();
     };
     double stiffness = 0.0, viscosity = 0.0;
-    each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
-        const auto k_n = static_cast<double>(c.stiffness);
-        const bool wall = side.other < 0;
-        const double m_other = wall ? 0.0 : grains_.grain[static_cast<std::size_t>(side.other)].mass;
-        const double reduced = wall ? m : m * m_other / (m + m_other), part = wall ? 1.0 : 0.5;
+    contact_view().each_side_of(g, [&](const Side& side) {
+        const auto other = static_cast<std::size_t>(side.wall() ? 0 : side.other);
+        const double m_other = grains_.grain[other].mass;
+        const double reduced = side.wall() ? m : m * m_other / (m + m_other), part = side.wall() ? 1.0 : 0.5;
+        // Half the depth of a shallow lens, or all of it at a wall: S = 2/3 L depth.
+        const double length2 = side.contact.length_squared(), length = std::sqrt(length2);
+        const double delta = std::min(part * 1.5 * side.contact.lens() / length, 0.25 * length);
+        const double E = side.wall() ? material.E : std::max(material.E, grains_.material_of(other).E);
+        const double k_n = Mollon2022::stiffness(E, length, delta);
         stiffness += part * k_n;
         viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
         if (has_potential()) {
-            const double length2 = c.chord_x * c.chord_x + c.chord_y * c.chord_y;
-            stiffness += pressing(g, side.share(c), length2);
-            if (!wall)
-                stiffness += pressing(static_cast<std::size_t>(side.other), 1.0 - side.share(c), length2);
+            stiffness += pressing(g, side.share, length2);
+            if (!side.wall()) stiffness += pressing(other, 1.0 - side.share, length2);
         }
-        if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * material.E;
+        if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * E;
     });
     if (stiffness == 0.0) stiffness = Mollon2022::first_stiffness(material.E);
     const double bulk =

@@ -40,8 +40,8 @@ GrainView SoftDiscSolver::view(Need need) {
                     {"radius", "m", 1, view_.radius},
                     {"principal_strain_1", "1", 1, view_.strain_1},
                     {"principal_strain_2", "1", 1, view_.strain_2},
-                    {"cap_fraction", "1", 1, view_.cap_fraction},
-                    {"covered_outline", "1", 1, view_.covered_outline}};
+                    {"cap_fraction", "1", 1, view_.cap_fraction}};
+        if (!has_potential()) v.fields.push_back({"covered_outline", "1", 1, view_.covered_outline});
         if (options_.motion.plastic) v.fields.push_back({"plastic_strain", "1", 1, view_.plastic_strain});
         if (!grains_.grain_class.empty()) v.fields.push_back({"grain_class", "1", 1, view_.grain_class});
     }
@@ -68,10 +68,10 @@ void SoftDiscSolver::fill_state() {
 
 std::vector<Cut> SoftDiscSolver::cuts_of(std::size_t g) const {
     std::vector<Cut> cuts;
-    const Ellipse shape = grains_.grain[g].ellipse();
-    each_contact_of(contacts_, g, false, [&](const Contact& c, const Side& side) {
-        const Vec2 outward = -side.sign() * Vec2{c.chord_x, c.chord_y}.normalized();
-        cuts.push_back(cut_of(shape, outward, grains_.center[g] + side.arm(c)));
+    const Ellipse shape = ellipse_of(grains_.grain[g]);
+    contact_view().each_side_of(g, [&](const Side& side) {
+        const Vec2 outward = -side.sign() * Vec2{side.contact.chord_x, side.contact.chord_y}.normalized();
+        cuts.push_back(cut_of(shape, outward, grains_.center[g] + Vec2{side.arm_x, side.arm_y}));
     });
     return cuts;
 }
@@ -82,7 +82,7 @@ void SoftDiscSolver::fill_areas() {
     view_.covered_area = 0.0;
     for (std::size_t p = 0; p < size(); ++p) {
         const std::size_t g = view_.place[p];
-        view_.area[p] = clipped_area(grains_.grain[g].ellipse(), cuts_of(g));
+        view_.area[p] = clipped_area(ellipse_of(grains_.grain[g]), cuts_of(g));
         view_.covered_area += view_.area[p];
     }
 }
@@ -91,26 +91,21 @@ void SoftDiscSolver::fill_contacts() {
     view_.contacts.clear();
     const ForceSource source = forces();
     for (std::size_t g = 0; g < size(); ++g) {
-        each_contact_of(contacts_, g, source.sliding, [&](const Contact& c, const Side& side) {
-            if (side.second) return;
-            const double q = source.elastic(c, side, g);
-            const Vec2 chord{c.chord_x, c.chord_y};
-            const double length = chord.norm();
+        source.contacts.each_side_of(g, [&](const Side& side) {
+            const int i = packing_index(g);
+            const int j = side.wall() ? side.other : packing_index(static_cast<std::size_t>(side.other));
+            if (!side.wall() && i > j) return;  // told by the other grain
+            const Contact& c = side.contact;
+            const double q = source.elastic(side, g);
+            const Vec2 chord = -side.sign() * Vec2{c.chord_x, c.chord_y};  // out of this grain
             GrainContact contact;
-            contact.i = packing_index(g);
-            contact.j = side.other < 0 ? side.other : packing_index(static_cast<std::size_t>(side.other));
-            contact.point = grains_.center[g] + side.arm(c);
-            contact.normal = chord / length;
-            contact.force =
-                -(q + damping_without_pull(q, c.q_damping)) * chord - side.tangential * perpendicular(chord);
-            contact.length = length;
-            if (contact.j >= 0 && contact.j < contact.i) {
-                std::swap(contact.i, contact.j);
-                contact.point =
-                    grains_.center[static_cast<std::size_t>(side.other)] + Vec2{c.arm_jx, c.arm_jy};
-                contact.normal = -contact.normal;
-                contact.force = -contact.force;
-            }
+            contact.i = i;
+            contact.j = j;
+            contact.point = grains_.center[g] + Vec2{side.arm_x, side.arm_y};
+            contact.length = chord.norm();
+            contact.normal = chord / contact.length;
+            contact.force = -(q + damping_without_pull(q, c.q_damping)) * chord -
+                            source.tangential(side) * perpendicular(chord);
             view_.contacts.push_back(contact);
         });
     }
@@ -134,7 +129,7 @@ void SoftDiscSolver::fill_outlines() {
     view_.outline_point.clear();
     for (std::size_t p = 0; p < size(); ++p) {
         const std::size_t g = view_.place[p];
-        append_clipped_outline(grains_.grain[g].ellipse(), cuts_of(g), options_.outline_points,
+        append_clipped_outline(ellipse_of(grains_.grain[g]), cuts_of(g), options_.outline_points,
                                view_.outline_point);
         view_.outline_offset.push_back(static_cast<int>(view_.outline_point.size()));
     }
@@ -157,7 +152,7 @@ void SoftDiscSolver::fill_fields() {
         view_.strain_1[p] = middle + d;
         view_.strain_2[p] = middle - d;
         view_.cap_fraction[p] = sums.caps / grain.reference_area();
-        view_.covered_outline[p] = sums.covered;
+        view_.covered_outline[p] = covered_outline(contacts_, g);
         // Logarithmic: principal values of Fp are l and 1/l, those of G their inverse squares.
         view_.plastic_strain[p] =
             options_.motion.plastic

@@ -27,10 +27,11 @@ WallNews evaluate_walls(const WallInput& in, ContactList& list) {
         Contact& c = list.wall_contact[k];
         const bool touched = c.touching();
         c = Contact{};
+        list.wall_opening[k] = Opening{};
         const double distance = in.motion.box.distance(pair.wall, in.grains.center[g]);
         if (distance >= in.grains.reach[g]) continue;
         const Vec2 inward = wall_normal(pair.wall);
-        const WallChord chord = wall_chord(grain.ellipse(), inward, distance);
+        const WallChord chord = wall_chord(ellipse_of(grain), inward, distance);
         if (!chord.touching) continue;
         const Vec2 arm = chord.point - in.grains.center[g];
         const Vec2 against_wall = velocity_at(grain, arm) - in.motion.velocity_of(pair.wall);
@@ -43,15 +44,12 @@ WallNews evaluate_walls(const WallInput& in, ContactList& list) {
                                          : Mollon2022::contact(input, in.contact_damping);
         c.chord_x = -chord.length * inward.x();
         c.chord_y = -chord.length * inward.y();
-        c.arm_ix = arm.x();
-        c.arm_iy = arm.y();
+        c.arm_x = arm.x();
+        c.arm_y = arm.y();
         c.cap_i = chord.cap;
         c.q = answer.q;
         c.q_damping = answer.q_damping;
-        c.share_i = 1.0;
-        c.psi_i = static_cast<float>(chord.psi);
-        c.stiffness = static_cast<float>(answer.stiffness);
-        c.depth = static_cast<float>(chord.depth);
+        list.wall_opening[k].psi_i = static_cast<float>(chord.psi);
         // Of the wall against the grain, along the turned outward normal.
         if (!list.wall_history.slip_rate.empty())
             list.wall_history.slip_rate[k] = cross(inward, against_wall);

@@ -18,6 +18,7 @@
 namespace softgrain::sdem {
 
 struct LensPotential {
+    static constexpr bool uses_openings = false;  ///< needs the opening angles of caps
     static constexpr double c0 = 1.008;
     static constexpr double T0 = 0.0966;
     static constexpr double gamma = 0.444;

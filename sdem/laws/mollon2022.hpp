@@ -10,7 +10,8 @@
 namespace softgrain::sdem {
 
 struct Mollon2022 {
-    static constexpr double a = 0.58;  ///< Section 4.2
+    static constexpr bool uses_openings = true;  ///< needs the opening angles of caps
+    static constexpr double a = 0.58;            ///< Section 4.2
     static constexpr double b = 2.0;
 
     /// Secant stiffness k_n of Eq. 57; delta = -delta_n > 0 in contact.
