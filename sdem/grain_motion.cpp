@@ -8,8 +8,6 @@
 namespace softgrain::sdem {
 namespace {
 
-constexpr double smallest_area_ratio = 0.04;
-
 void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains, const GrainMemory& memory,
                 std::size_t begin, std::size_t end) {
     block.count = static_cast<int>(end - begin);
@@ -69,6 +67,12 @@ void kick_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
     kick(block, in.law, dt);
 }
 
+void keep_flow(const MotionBlock& block, GrainMemory& memory, std::size_t g, int l) {
+    memory.plastic_xx[g] = block.plastic_xx[l];
+    memory.plastic_xy[g] = block.plastic_xy[l];
+    memory.plastic_yy[g] = block.plastic_yy[l];
+}
+
 StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
     StepWork work;
     for (int l = 0; l < block.count; ++l) {
@@ -106,11 +110,11 @@ std::size_t find_pressures(const Grains& grains, const ContactView& contacts, Gr
     return bad;
 }
 
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
-                     std::size_t end, std::size_t& bad) {
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
+                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad) {
     MotionBlock block;
-    kick_block(block, in, grains, memory, dt, begin, end);
-    drift(block, in.law, dt);
+    kick_block(block, in, grains, memory, kick_time, begin, end);
+    drift(block, in.law, drift_time);
     for (std::size_t g = begin; g < end; ++g) {
         const auto l = static_cast<int>(g - begin);
         Grain& grain = grains.grain[g];
@@ -123,11 +127,7 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
         grains.next_center[g] = Vec2{grain.x, grain.y};
         grains.reach[g] = block.reach[l];
         if (in.law.imposes_area) memory.caps_before[g] = block.caps_before[l];
-        if (in.law.plastic) {
-            memory.plastic_xx[g] = block.plastic_xx[l];
-            memory.plastic_xy[g] = block.plastic_xy[l];
-            memory.plastic_yy[g] = block.plastic_yy[l];
-        }
+        if (in.law.plastic) keep_flow(block, memory, g, l);
         const bool near = block.moved[l] <= 0.25 * grain.radius * grain.radius;
         const bool sound =
             block.det[l] > smallest_area_ratio && block.reach[l] < std::numeric_limits<double>::infinity();
@@ -141,6 +141,31 @@ StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemor
     MotionBlock block;
     kick_block(block, in, grains, memory, dt, begin, end);
     return work_of(block, in.law);
+}
+
+void kick_from_rest(MotionBlock& block, const MotionInput& in, const Grains& grains,
+                    const GrainMemory& memory, std::size_t begin, std::size_t end) {
+    load_block(block, in, grains, memory, begin, end);
+    for (int l = 0; l < block.count; ++l) {
+        block.vx[l] = block.vy[l] = 0.0;
+        block.F_rate.set(l, Tensor{0.0, 0.0, 0.0, 0.0});
+    }
+    add_inner_stress(block, in.law);
+    kick(block, in.law, 1.0);
+}
+
+double flow_grains(const MotionInput& in, const Grains& grains, GrainMemory& memory, std::size_t begin,
+                   std::size_t end) {
+    MotionBlock block;
+    load_block(block, in, grains, memory, begin, end);
+    add_inner_stress(block, in.law);
+    double work = 0.0;
+    for (std::size_t g = begin; g < end; ++g) {
+        const auto l = static_cast<int>(g - begin);
+        keep_flow(block, memory, g, l);
+        work += block.plastic_work[l];
+    }
+    return work;
 }
 
 }  // namespace softgrain::sdem

@@ -54,14 +54,26 @@ struct MotionInput {
     WallMotion flow;  ///< of a periodic cell: works are done by the motion against it
 };
 
-/// One step of the grains [begin, end), at most grains_per_block of them: Eq. 58, 59. New centres go to
+/// A grain whose det F is not above this counts as crushed.
+inline constexpr double smallest_area_ratio = 0.04;
+
+/// One step of the grains [begin, end), at most grains_per_block of them: velocities advance by `kick_time`,
+/// Eq. 58, then positions by `drift_time`, Eq. 59; they differ where the step changes. New centres go to
 /// grains.next_center, as other grains still need the old ones. `bad` becomes the first
 /// grain that moved by more than half its radius, is crushed or turned inside out.
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
-                     std::size_t end, std::size_t& bad);
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
+                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad);
 
 /// The work of a kick by dt, and the kinetic energy after it; changes nothing.
 StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,
                    std::size_t begin, std::size_t end);
+
+struct MotionBlock;
+/// Accelerations of grains at rest, as the velocities after a kick by one second.
+void kick_from_rest(MotionBlock& block, const MotionInput& in, const Grains& grains,
+                    const GrainMemory& memory, std::size_t begin, std::size_t end);
+/// Lets plastic grains flow to their yield stress without moving; the work it takes [J].
+double flow_grains(const MotionInput& in, const Grains& grains, GrainMemory& memory, std::size_t begin,
+                   std::size_t end);
 
 }  // namespace softgrain::sdem

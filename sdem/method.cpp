@@ -10,7 +10,7 @@
 
 #include "common/errors.hpp"
 #include "sdem/laws/lens_potential.hpp"
-#include "sdem/solver.hpp"
+#include "sdem/quasi_static.hpp"
 
 namespace softgrain::sdem {
 
@@ -61,6 +61,18 @@ std::span<const KeySpec> keys() {
             "inertia added to changes of a grain's area, in units of its own; by itself as much as makes a "
             "nearly incompressible grain as slow in area as in shape",
             not_negative},
+        KeySpec{
+            "driver",
+            KeyType::text,
+            "explicit"s,
+            "",
+            "explicit: dynamics; quasi_static: equilibria by minimising the energy, where the law has one",
+            any_number,
+            {"explicit", "quasi_static"}},
+        KeySpec{"strain_step", KeyType::number, QuasiStaticOptions{}.strain_step, "",
+                "largest strain of the box between two equilibria, quasi_static only", positive},
+        KeySpec{"tolerance", KeyType::number, QuasiStaticOptions{}.tolerance, "",
+                "largest force out of balance / mean contact force, quasi_static only", positive},
         KeySpec{"tangential_stiffness", KeyType::number, 0.5, "E",
                 "of the spring along a chord, with friction", positive},
         KeySpec{"adhesion_range", KeyType::number, 0.0, "grain areas",
@@ -163,7 +175,25 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
     options.geometry = geometry == "batch"    ? Geometry::batch
                        : geometry == "scalar" ? Geometry::scalar
                                               : Geometry::polygon;
-    return std::make_unique<SoftDiscSolver>(std::move(materials), packing, options);
+    if (settings.text("driver") == "explicit")
+        return std::make_unique<SoftDiscSolver>(std::move(materials), packing, options);
+
+    if (printed)
+        throw InputError(
+            "sdem.driver = \"quasi_static\" minimises an energy, and sdem.law = \"mollon2022\" has none; use "
+            "sdem.law = \"lens_potential\" or sdem.driver = \"explicit\"");
+    if (options.sliding.needs_history())
+        throw InputError(
+            "sdem.driver = \"quasi_static\" minimises an energy, and friction or an adhesion_range has none; "
+            "set "
+            "them to 0 or use sdem.driver = \"explicit\"");
+    if (motion.kinematics != Kinematics::D2F3)
+        throw InputError("sdem.driver = \"quasi_static\" needs sdem.kinematics = \"D2F3\"");
+    options.contact_damping = 0.0;
+    motion.shape_damping = false;
+    return std::make_unique<QuasiStaticSolver>(
+        std::move(materials), packing, options,
+        QuasiStaticOptions{settings.number("strain_step"), settings.number("tolerance")});
 }
 
 }  // namespace

@@ -17,9 +17,9 @@
 namespace softgrain::sdem {
 namespace {
 
-constexpr std::size_t threads_pay_off = 400;  // grains
 constexpr std::size_t pairs_per_chunk = 128;
 constexpr int steps_per_time_step_check = 16;
+constexpr double worth_a_change = 1.25;
 
 }  // namespace
 
@@ -100,17 +100,19 @@ double SoftDiscSolver::stress_scale() const {
 }
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
-    add_boundary_work(ledger_, motion_, walls, dt);
+    const double kick = lag_ + 0.5 * dt;
+    add_boundary_work(ledger_, motion_, lag_);
+    add_boundary_work(ledger_, walls, 0.5 * dt);
     if (walls.box.periodic) follow_flow(walls);
     motion_ = walls;
 
     std::vector<StepWork> work(blocks());
     std::size_t bad = size();
     const MotionInput input = motion_input();
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        work[block] = move_grains(input, grains_, memory_, dt, begin, end, bad);
+        work[block] = move_grains(input, grains_, memory_, kick, dt, begin, end, bad);
     }
     for (const StepWork& w : work) {
         if (!has_potential()) ledger_.elastic += w.stored;
@@ -118,12 +120,16 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
         ledger_.plastic += w.plastic;
     }
     time_ += dt;
-    last_step_ = dt;
+    lag_ = 0.5 * dt;
     ++steps_;
     motion_.box = walls.after(dt);
     lattice_ = cell().box;
     grains_.center.swap(grains_.next_center);  // next_center now holds the last one
     if (bad < size()) throw_bad_grain(bad);
+    refresh_contacts(dt);
+}
+
+void SoftDiscSolver::refresh_contacts(double dt) {
     if (contacts_.stale(grains_, lattice_)) rebuild_contacts();
     update_contacts(dt);
 }
@@ -173,14 +179,18 @@ void SoftDiscSolver::update_contacts(double dt) {
     if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
     if (motion_.box.periodic) sum_cell_stress();
-    limit_time_step();
+    limit_time_step(dt);
 }
 
-/// Stiffness grows slowly, and all at once where a contact closes.
-void SoftDiscSolver::limit_time_step() {
-    if (steps_ % steps_per_time_step_check == 0 || time_step_ == 0.0) {
+/// Stiffness grows slowly, and all at once where a contact closes. A step that follows every change of the
+/// limit would feed energy in: it is kept until it is too long, or a good deal too short.
+void SoftDiscSolver::limit_time_step(double dt) {
+    if (time_step_ == 0.0) {
         time_step_ = time_step_limit();
-    } else {
+    } else if (dt > 0.0 && steps_ % steps_per_time_step_check == 0) {
+        const double limit = time_step_limit();
+        if (limit < time_step_ || limit > worth_a_change * time_step_) time_step_ = limit;
+    } else if (dt > 0.0) {
         for (const std::size_t g : disturbed_)
             time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g));
     }
@@ -199,7 +209,7 @@ void SoftDiscSolver::evaluate_all_pairs() {
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<PairNews> news(chunks);
-#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
         news[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
@@ -225,7 +235,7 @@ void SoftDiscSolver::evaluate_all_walls() {
 
 void SoftDiscSolver::find_all_pressures() {
     std::size_t bad = size();
-#pragma omp parallel for schedule(static) reduction(min : bad) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
         bad = std::min(
@@ -241,7 +251,7 @@ void SoftDiscSolver::slide(double dt) {
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<SlidingWork> work(chunks);
-#pragma omp parallel for schedule(static) if (size() >= threads_pay_off)
+#pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
         work[chunk] = slide_pairs(options_.sliding, source, grains_, contacts_, dt, begin,
@@ -294,25 +304,24 @@ void SoftDiscSolver::sum_cell_stress() {
     cell_stress_.damping /= motion_.box.area();
 }
 
-/// Work of walls or cell over dt, by the mean of their motion before and after; the share that dashpots at
-/// the boundary take goes to `damping`. Without a potential the rest counts as stored.
-void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& before,
-                                       const WallMotion& after, double dt) const {
+/// Work of walls or cell that move like this for dt; the share that dashpots at the boundary take goes to
+/// `damping`. Without a potential the rest counts as stored.
+void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const {
     double work = 0.0, damped = 0.0;
-    if (after.box.periodic) {
-        const Mat2 L = 0.5 * (before.velocity_gradient() + after.velocity_gradient());
+    if (walls.box.periodic) {
+        const Mat2 L = walls.velocity_gradient();
         Mat2 flux = Mat2::Zero();  // of the momentum that grains carry against the flow
         for (const Grain& g : grains_.grain) {
-            const Vec2 u = Vec2{g.vx, g.vy} - before.affine_velocity(Vec2{g.x, g.y});
+            const Vec2 u = Vec2{g.vx, g.vy} - motion_.affine_velocity(Vec2{g.x, g.y});
             flux += g.mass * u * u.transpose();
         }
-        const double area = before.box.area();
+        const double area = walls.box.area();
         work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
         damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
     } else {
         for (std::size_t w = 0; w < 4; ++w) {
             const int axis = wall_axis(static_cast<int>(w));
-            const double moved = 0.5 * (before.velocity[w] + after.velocity[w]) * dt;
+            const double moved = walls.velocity[w] * dt;
             work -= wall_force_[w][axis] * moved;
             damped -= wall_damping_force_[w][axis] * moved;
         }
@@ -320,6 +329,12 @@ void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& b
     ledger.external_work += work;
     ledger.damping += damped;
     if (!has_potential()) ledger.elastic += work - damped;
+}
+
+bool SoftDiscSolver::sound(std::size_t g) const {
+    const Grain& grain = grains_.grain[g];
+    return (grains_.center[g] - grains_.next_center[g]).squaredNorm() <= 0.25 * grain.radius * grain.radius &&
+           grain.F.det() > smallest_area_ratio && grains_.reach[g] < std::numeric_limits<double>::infinity();
 }
 
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
@@ -381,13 +396,12 @@ double SoftDiscSolver::potential_energy() const {
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
-    const double half = 0.5 * last_step_;
-    add_boundary_work(ledger, motion_, motion_, half);
+    add_boundary_work(ledger, motion_, lag_);
     const MotionInput input = motion_input();
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block;
         const StepWork work =
-            kick_work(input, grains_, memory_, half, begin, std::min(size(), begin + grains_per_block));
+            kick_work(input, grains_, memory_, lag_, begin, std::min(size(), begin + grains_per_block));
         ledger.damping += work.damped;
         ledger.kinetic += work.kinetic;
         if (!has_potential()) ledger.elastic += work.stored;

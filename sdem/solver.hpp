@@ -41,6 +41,14 @@ class SoftDiscSolver : public Solver {
   protected:
     /// Contacts and forces at the present positions; `dt` is the step that led there, 0 if none did.
     void update_contacts(double dt);
+    /// The same, with new candidates where the old ones have had their day.
+    void refresh_contacts(double dt);
+    /// False if the grain has moved by more than half its radius from next_center, is crushed or inside out.
+    bool sound(std::size_t g) const;
+    void throw_bad_grain(std::size_t g) const;
+    double time_step_limit() const;
+    double potential_energy() const;
+    bool threads_pay_off() const { return size() >= 400; }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
     ContactView contact_view() const { return {contacts_, grains_.center, lattice_}; }
@@ -57,7 +65,10 @@ class SoftDiscSolver : public Solver {
     ContactList contacts_;
     Pressures pressures_;
     WallMotion motion_;  ///< the box now, and how it last moved
+    Box lattice_;        ///< the box now, on the lattice of the contact list
     double time_ = 0.0;
+    double lag_ = 0.0;  ///< by how much velocities are behind positions: half a step [s]
+    std::array<Vec2, 4> wall_force_{};
     EnergyLedger
         ledger_;  ///< up to half a step before now; kinetic not used, elastic only without a potential
 
@@ -71,18 +82,13 @@ class SoftDiscSolver : public Solver {
     void sum_wall_forces();
     void sum_cell_stress();
     void follow_flow(const WallMotion& walls);
-    void add_boundary_work(EnergyLedger& ledger, const WallMotion& before, const WallMotion& after,
-                           double dt) const;
-    double time_step_limit() const;
+    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
     double time_step_share() const;
-    void limit_time_step();
+    void limit_time_step(double dt);
     double grain_time_step(std::size_t g) const;
-    void throw_bad_grain(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
-    double potential_energy() const;
-    void check_energy() const;
 
     void fill_state();
     void fill_areas();
@@ -96,13 +102,11 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
-    Box lattice_;                         ///< the box now, on the lattice of the contact list
-    double last_step_ = 0.0;              ///< [s]; 0 before the first step
     double time_step_ = 0.0;              ///< [s] found every few steps
     std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
-    std::array<Vec2, 4> wall_force_{}, wall_damping_force_{};
+    std::array<Vec2, 4> wall_damping_force_{};
     CellStress cell_stress_;
 
     struct ViewData {

@@ -65,7 +65,7 @@ void SoftDiscSolver::save(Checkpoint& to) const {
     to.put("sdem.F", std::span<const Mat2>(F));
     to.put("sdem.F_rate", std::span<const Mat2>(F_rate));
     to.put("sdem.time", time_);
-    to.put("sdem.last_step", last_step_);
+    to.put("sdem.lag", lag_);
     to.put("sdem.time_step", time_step_);
     to.put("sdem.counters", std::vector<std::int64_t>{steps_, flips_});
     to.put("sdem.box", std::span<const double>(motion_.box.position));
@@ -113,7 +113,8 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         grains_.reach[g] = reach_of(grain);
     }
     time_ = from.number("sdem.time");
-    last_step_ = from.number("sdem.last_step");
+    lag_ = from.number("sdem.lag");
+    time_step_ = from.number("sdem.time_step");
     std::vector<std::int64_t> counters;
     get_sized(from, "sdem.counters", 2, counters);
     steps_ = counters[0];
@@ -158,9 +159,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         load_history(from, "wall", contacts_.wall_pairs().size(), contacts_.wall_history);
     }
     lattice_ = cell().box;
-    if (contacts_.stale(grains_, lattice_)) rebuild_contacts();  // never for a state as it was saved
-    update_contacts(0.0);
-    time_step_ = from.number("sdem.time_step");  // to that evaluation every contact was a new one
+    refresh_contacts(0.0);  // no new candidates for a state as it was saved
 }
 
 void SoftDiscSolver::check_finite() const {

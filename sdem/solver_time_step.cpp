@@ -19,7 +19,7 @@ double SoftDiscSolver::time_step_share() const {
 
 double SoftDiscSolver::time_step_limit() const {
     double smallest = std::numeric_limits<double>::infinity();
-#pragma omp parallel for schedule(static) reduction(min : smallest) if (size() >= 400)
+#pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
     for (std::size_t g = 0; g < size(); ++g) smallest = std::min(smallest, grain_time_step(g));
     return time_step_share() * smallest;
 }

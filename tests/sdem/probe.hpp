@@ -50,6 +50,8 @@ inline WallMotion still(Solver& solver) {
 inline Drive drive_at(Solver& solver, const Bodies& bodies, const State& state) {
     const double dt = 1e-7;
     set_state(solver, at_rest(state));
+    solver.advance(still(solver), dt);  // whatever the step before was
+    set_state(solver, at_rest(state));
     solver.advance(still(solver), dt);
     const State now = state_of(solver);
     Drive drive;
