@@ -110,11 +110,11 @@ std::size_t find_pressures(const Grains& grains, const ContactView& contacts, Gr
     return bad;
 }
 
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
-                     std::size_t end, std::size_t& bad) {
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
+                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad) {
     MotionBlock block;
-    kick_block(block, in, grains, memory, dt, begin, end);
-    drift(block, in.law, dt);
+    kick_block(block, in, grains, memory, kick_time, begin, end);
+    drift(block, in.law, drift_time);
     for (std::size_t g = begin; g < end; ++g) {
         const auto l = static_cast<int>(g - begin);
         Grain& grain = grains.grain[g];

@@ -57,11 +57,12 @@ struct MotionInput {
 /// A grain whose det F is not above this counts as crushed.
 inline constexpr double smallest_area_ratio = 0.04;
 
-/// One step of the grains [begin, end), at most grains_per_block of them: Eq. 58, 59. New centres go to
+/// One step of the grains [begin, end), at most grains_per_block of them: velocities advance by `kick_time`,
+/// Eq. 58, then positions by `drift_time`, Eq. 59; they differ where the step changes. New centres go to
 /// grains.next_center, as other grains still need the old ones. `bad` becomes the first
 /// grain that moved by more than half its radius, is crushed or turned inside out.
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double dt, std::size_t begin,
-                     std::size_t end, std::size_t& bad);
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
+                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad);
 
 /// The work of a kick by dt, and the kinetic energy after it; changes nothing.
 StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,

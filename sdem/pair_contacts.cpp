@@ -49,6 +49,7 @@ class Work {
         answer_lanes(batch_, in_.law, in_.with_rates, in_.contact_damping);
         for (int l = 0; l < batch_.count; ++l) {
             const std::size_t k = batch_.pair[l];
+            if (batch_.contact[l].touching() && !out_.contact[k].touching()) news_.closed.push_back(k);
             out_.contact[k] = batch_.contact[l];
             out_.guess[k] = batch_.guess[l];
             if (!(batch_.stiffness[l] > 0.0)) report(k, Overlap::chord);
@@ -60,7 +61,7 @@ class Work {
         batch_.count = 0;
     }
 
-    BadPair bad() const { return bad_; }
+    PairNews take_news() { return std::move(news_); }
 
   private:
     bool many_classes() const { return !in_.grains.grain_class.empty(); }
@@ -101,18 +102,18 @@ class Work {
     }
 
     void report(std::size_t k, Overlap overlap) {
-        if (k < bad_.pair) bad_ = {k, overlap};
+        if (k < news_.bad.pair) news_.bad = {k, overlap};
     }
 
     const PairInput& in_;
     const PairOutput& out_;
     PairLanes& batch_;
-    BadPair bad_;
+    PairNews news_;
 };
 
 }  // namespace
 
-BadPair evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end) {
+PairNews evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end) {
     static thread_local PairLanes lanes;
     Work work(in, out, lanes);
     const bool periodic = !in.image.empty();
@@ -136,7 +137,7 @@ BadPair evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t b
         }
     }
     work.finish();
-    return work.bad();
+    return work.take_news();
 }
 
 }  // namespace softgrain::sdem

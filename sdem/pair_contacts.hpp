@@ -47,7 +47,13 @@ struct BadPair {
     Overlap overlap = Overlap::none;
 };
 
+/// What an evaluation came upon.
+struct PairNews {
+    BadPair bad;
+    std::vector<std::size_t> closed;  ///< pairs that did not touch before
+};
+
 /// Contacts of the pairs [begin, end). Every pair on its own: the same bits however the range is cut.
-BadPair evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end);
+PairNews evaluate_pairs(const PairInput& in, const PairOutput& out, std::size_t begin, std::size_t end);
 
 }  // namespace softgrain::sdem

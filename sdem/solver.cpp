@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t pairs_per_chunk = 128;
 constexpr int steps_per_time_step_check = 16;
 constexpr int steps_per_energy_check = 128;
+constexpr double worth_a_change = 1.25;
 
 }  // namespace
 
@@ -100,7 +101,9 @@ double SoftDiscSolver::stress_scale() const {
 }
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
-    add_boundary_work(ledger_, motion_, walls, dt);
+    const double kick = lag_ + 0.5 * dt;
+    add_boundary_work(ledger_, motion_, lag_);
+    add_boundary_work(ledger_, walls, 0.5 * dt);
     if (walls.box.periodic) follow_flow(walls);
     motion_ = walls;
 
@@ -110,7 +113,7 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        work[block] = move_grains(input, grains_, memory_, dt, begin, end, bad);
+        work[block] = move_grains(input, grains_, memory_, kick, dt, begin, end, bad);
     }
     for (const StepWork& w : work) {
         if (!has_potential()) ledger_.elastic += w.stored;
@@ -171,17 +174,31 @@ void SoftDiscSolver::rebuild_contacts() {
 
 void SoftDiscSolver::update_contacts(double dt) {
     guess_before_ = contacts_.guess;
-    evaluate_pairs_and_walls();
+    disturbed_.clear();
+    evaluate_all_pairs();
+    evaluate_all_walls();
     if (has_potential()) find_all_pressures();
     if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
     if (motion_.box.periodic) sum_cell_stress();
-    // An imposed area runs away at once if a step is too long.
-    const int interval = options_.motion.imposes_area ? 1 : steps_per_time_step_check;
-    if (time_step_ == 0.0 || (dt > 0.0 && steps_ % interval == 0)) time_step_ = time_step_limit();
+    limit_time_step(dt);
 }
 
-void SoftDiscSolver::evaluate_pairs_and_walls() {
+/// Stiffness grows slowly, and all at once where a contact closes. A step that follows every change of the
+/// limit would feed energy in: it is kept until it is too long, or a good deal too short.
+void SoftDiscSolver::limit_time_step(double dt) {
+    if (time_step_ == 0.0) {
+        time_step_ = time_step_limit();
+    } else if (dt > 0.0 && steps_ % steps_per_time_step_check == 0) {
+        const double limit = time_step_limit();
+        if (limit < time_step_ || limit > worth_a_change * time_step_) time_step_ = limit;
+    } else if (dt > 0.0) {
+        for (const std::size_t g : disturbed_)
+            time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g));
+    }
+}
+
+void SoftDiscSolver::evaluate_all_pairs() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
     const PairInput in{grains_,   contacts_.pairs(),           contacts_.share,   contacts_.images(),
@@ -193,19 +210,27 @@ void SoftDiscSolver::evaluate_pairs_and_walls() {
                          contacts_.pair_history.slip_rate};
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
-    std::vector<BadPair> bad(chunks);
+    std::vector<PairNews> news(chunks);
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
-        bad[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
+        news[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
     }
-    for (const BadPair& b : bad)
-        if (b.pair < pairs) throw_bad_pair(b);
+    for (const PairNews& n : news) {
+        if (n.bad.pair < pairs) throw_bad_pair(n.bad);
+        for (const std::size_t k : n.closed)
+            for (const int g : {contacts_.pairs()[k].i, contacts_.pairs()[k].j})
+                disturbed_.push_back(static_cast<std::size_t>(g));
+    }
+}
 
-    const std::size_t bad_wall =
-        evaluate_walls({grains_, lattice, options_.motion.contact_law, options_.contact_damping}, contacts_);
-    if (bad_wall < contacts_.wall_pairs().size())
-        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[bad_wall].grain)),
+void SoftDiscSolver::evaluate_all_walls() {
+    const WallNews news =
+        evaluate_walls({grains_, cell(), options_.motion.contact_law, options_.contact_damping}, contacts_);
+    for (const std::size_t k : news.closed)
+        disturbed_.push_back(static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+    if (news.bad < contacts_.wall_pairs().size())
+        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[news.bad].grain)),
                             "wall contact", time_,
                             "the grain went through a wall, or its cap is too deep for Eq. 57");
 }
@@ -281,25 +306,24 @@ void SoftDiscSolver::sum_cell_stress() {
     cell_stress_.damping /= motion_.box.area();
 }
 
-/// Work of walls or cell over dt, by the mean of their motion before and after; the share that dashpots at
-/// the boundary take goes to `damping`. Without a potential the rest counts as stored.
-void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& before,
-                                       const WallMotion& after, double dt) const {
+/// Work of walls or cell that move like this for dt; the share that dashpots at the boundary take goes to
+/// `damping`. Without a potential the rest counts as stored.
+void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const {
     double work = 0.0, damped = 0.0;
-    if (after.box.periodic) {
-        const Mat2 L = 0.5 * (before.velocity_gradient() + after.velocity_gradient());
+    if (walls.box.periodic) {
+        const Mat2 L = walls.velocity_gradient();
         Mat2 flux = Mat2::Zero();  // of the momentum that grains carry against the flow
         for (const Grain& g : grains_.grain) {
-            const Vec2 u = Vec2{g.vx, g.vy} - before.affine_velocity(Vec2{g.x, g.y});
+            const Vec2 u = Vec2{g.vx, g.vy} - motion_.affine_velocity(Vec2{g.x, g.y});
             flux += g.mass * u * u.transpose();
         }
-        const double area = before.box.area();
+        const double area = walls.box.area();
         work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
         damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
     } else {
         for (std::size_t w = 0; w < 4; ++w) {
             const int axis = wall_axis(static_cast<int>(w));
-            const double moved = 0.5 * (before.velocity[w] + after.velocity[w]) * dt;
+            const double moved = walls.velocity[w] * dt;
             work -= wall_force_[w][axis] * moved;
             damped -= wall_damping_force_[w][axis] * moved;
         }
@@ -374,7 +398,7 @@ double SoftDiscSolver::potential_energy() const {
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
-    add_boundary_work(ledger, motion_, motion_, lag_);
+    add_boundary_work(ledger, motion_, lag_);
     const MotionInput input = motion_input();
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block;

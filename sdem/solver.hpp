@@ -75,14 +75,16 @@ class SoftDiscSolver : public Solver {
   private:
     void place(const Packing& packing);
     void rebuild_contacts();
-    void evaluate_pairs_and_walls();
+    void evaluate_all_pairs();
+    void evaluate_all_walls();
     void find_all_pressures();
     void slide(double dt);
     void sum_wall_forces();
     void sum_cell_stress();
     void follow_flow(const WallMotion& walls);
-    void add_boundary_work(EnergyLedger& ledger, const WallMotion& before, const WallMotion& after,
-                           double dt) const;
+    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
+    double time_step_share() const;
+    void limit_time_step(double dt);
     double grain_time_step(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
@@ -102,7 +104,8 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
-    double time_step_ = 0.0;  ///< [s] found every few steps
+    double time_step_ = 0.0;              ///< [s] found every few steps
+    std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
     struct Balance {

@@ -9,14 +9,19 @@
 
 namespace softgrain::sdem {
 
+/// Share of the stability limit that is used.
+double SoftDiscSolver::time_step_share() const {
+    // The imposed dilation follows the caps with a delay that damping has to make good (measured, see
+    // README.md).
+    const double delay = options_.motion.imposes_area ? std::min(1.0, 0.25 + options_.contact_damping) : 1.0;
+    return options_.safety * delay;
+}
+
 double SoftDiscSolver::time_step_limit() const {
     double smallest = std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
     for (std::size_t g = 0; g < size(); ++g) smallest = std::min(smallest, grain_time_step(g));
-    // The imposed dilation follows the caps with a delay that damping has to make good (measured, see
-    // README.md).
-    const double delay = options_.motion.imposes_area ? std::min(1.0, 0.25 + options_.contact_damping) : 1.0;
-    return options_.safety * delay * smallest;
+    return time_step_share() * smallest;
 }
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4

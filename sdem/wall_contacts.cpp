@@ -17,14 +17,15 @@ Vec2 velocity_at(const Grain& g, const Vec2& arm) {
 
 }  // namespace
 
-std::size_t evaluate_walls(const WallInput& in, ContactList& list) {
-    auto bad = static_cast<std::size_t>(-1);
+WallNews evaluate_walls(const WallInput& in, ContactList& list) {
+    WallNews news;
     for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
         const WallPair pair = list.wall_pairs()[k];
         const auto g = static_cast<std::size_t>(pair.grain);
         const Grain& grain = in.grains.grain[g];
         const GrainMaterial& material = in.grains.material_of(g);
         Contact& c = list.wall_contact[k];
+        const bool touched = c.touching();
         c = Contact{};
         list.wall_opening[k] = Opening{};
         const double distance = in.motion.box.distance(pair.wall, in.grains.center[g]);
@@ -52,9 +53,10 @@ std::size_t evaluate_walls(const WallInput& in, ContactList& list) {
         // Of the wall against the grain, along the turned outward normal.
         if (!list.wall_history.slip_rate.empty())
             list.wall_history.slip_rate[k] = cross(inward, against_wall);
-        if ((chord.escaped || !(answer.stiffness > 0.0)) && k < bad) bad = k;
+        if ((chord.escaped || !(answer.stiffness > 0.0)) && k < news.bad) news.bad = k;
+        if (!touched) news.closed.push_back(k);
     }
-    return bad;
+    return news;
 }
 
 }  // namespace softgrain::sdem

@@ -12,8 +12,13 @@ struct WallInput {
     double contact_damping;
 };
 
-/// Fills list.wall_contact, and slip rates if there is a history. The first wall pair that the law has no
-/// answer for, or -1.
-std::size_t evaluate_walls(const WallInput& in, ContactList& list);
+/// What an evaluation came upon.
+struct WallNews {
+    std::size_t bad = static_cast<std::size_t>(-1);  ///< first wall pair without an answer; -1 if none
+    std::vector<std::size_t> closed;                 ///< wall pairs that did not touch before
+};
+
+/// Fills list.wall_contact, and slip rates if there is a history.
+WallNews evaluate_walls(const WallInput& in, ContactList& list);
 
 }  // namespace softgrain::sdem

@@ -11,14 +11,21 @@
 
 namespace softgrain::sdem::test {
 
-inline Scenario scenario_with(double nu) {
+inline Settings& settings(Scenario& s) {
+    return s.method_settings.at("sdem");
+}
+/// The law that runs use if nothing else is said.
+inline Scenario default_scenario(double nu) {
     Scenario s;
     s.material.poisson_ratio = nu;
     s.method_settings.emplace("sdem", Settings(method().keys()));
     return s;
 }
-inline Settings& settings(Scenario& s) {
-    return s.method_settings.at("sdem");
+/// The law as printed.
+inline Scenario scenario_with(double nu) {
+    Scenario s = default_scenario(nu);
+    settings(s).set("law", std::string("mollon2022"));
+    return s;
 }
 inline void switch_off_damping(Scenario& s) {
     settings(s).set("contact_damping", 0.0);

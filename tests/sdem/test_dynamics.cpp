@@ -6,6 +6,7 @@
 
 #include "harness.hpp"
 #include "random_ellipses.hpp"
+#include "sdem/grains.hpp"
 #include "sdem/kinematics.hpp"
 
 namespace softgrain::sdem {
@@ -128,10 +129,10 @@ TEST(Kinematics, LevelsRestrictTheDeformation) {
     for (const Mat2& F : compressed("D2F0"))
         EXPECT_NEAR((F.transpose() * F - Mat2::Identity()).norm(), 0.0, 1e-13);
     for (const Mat2& F : compressed("D2F1")) {
-        EXPECT_NEAR(half_stretch_difference(F), 0.0, 1e-15);
+        EXPECT_NEAR(half_stretch_difference(tensor_of(F)), 0.0, 1e-15);
         volume = std::max(volume, std::abs(F.determinant() - 1.0));
     }
-    for (const Mat2& F : compressed("D2F3")) shape = std::max(shape, half_stretch_difference(F));
+    for (const Mat2& F : compressed("D2F3")) shape = std::max(shape, half_stretch_difference(tensor_of(F)));
     EXPECT_GT(volume, 1e-3);
     EXPECT_GT(shape, 1e-3);
 }
@@ -148,7 +149,7 @@ TEST(Kinematics, RigidPairIsTwoDiscsWithTheContactSpring) {
     for (int k = 0; k < 200; ++k) {
         const double depth = std::max(0.0, 1.0 - 0.5 * x), L = 2.0 * std::sqrt(depth * (2.0 - depth));
         const double N = depth > 0.0 ? L * depth / (0.58 * L - depth) : 0.0;
-        v += dt * 2.0 * N / pi;
+        v += (k == 0 ? 0.5 : 1.0) * dt * 2.0 * N / pi;  // the first kick leads to half a step later
         x += dt * v;
         solver->advance(WallMotion{test::far_away(), {}}, dt);
         const test::State now = test::state_of(*solver);
@@ -175,6 +176,8 @@ double measured_limit(double nu, double damping, double fraction_undeformed) {
         auto solver = test::solver_for(s, packing);
         solver->load(rest);
         const WallMotion walls{solver->view(Need::base).box, {}};
+        // A restart keeps the step that was saved; the limit is looked at again within a few steps.
+        for (int k = 0; k < 16; ++k) solver->advance(walls, 1e-9);
         const double dt = factor * solver->stable_time_step();
         const double before = solver->view(Need::base).energy.kinetic;
         try {

@@ -150,19 +150,30 @@ TEST(View, StressOfOneGrainUnderFourWalls) {
     EXPECT_EQ(v.covered_area, v.area[0]);
 }
 
-TEST(Input, FrictionAndBadPackingsAreRefusedWithACure) {
+TEST(Input, BadPackingsAndMaterialsAreRefusedWithACure) {
+    const auto refusal = [](const Scenario& s, const Packing& p) {
+        try {
+            test::solver_for(s, p);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return std::string("not refused");
+    };
     Scenario s = test::scenario_with(0.3);
-    s.material.friction = 0.2;
-    try {
-        test::solver_for(s, test::single_grain());
-        FAIL();
-    } catch (const InputError& e) {
-        EXPECT_NE(std::string(e.what()).find("material.friction = 0"), std::string::npos);
-    }
-    s.material.friction = 0.0;
-    EXPECT_THROW(test::solver_for(s, Packing{}), InputError);
+    EXPECT_NE(refusal(s, Packing{}).find("packing.path"), std::string::npos);
     s.material.poisson_ratio = 0.6;
-    EXPECT_THROW(test::solver_for(s, test::single_grain()), InputError);
+    EXPECT_NE(refusal(s, test::single_grain()).find("0 to 0.5"), std::string::npos);
+    s = test::scenario_with(0.3);
+    s.material.yield_stress = 0.1;
+    EXPECT_NE(refusal(s, test::single_grain()).find("lens_potential"), std::string::npos);
+    s = test::default_scenario(0.3);
+    s.material.yield_stress = 0.1;
+    test::settings(s).set("kinematics", std::string("D2F1"));
+    EXPECT_NE(refusal(s, test::single_grain()).find("D2F3"), std::string::npos);
+    s = test::scenario_with(0.3);
+    s.classes.resize(2);
+    s.classes[1].material.poisson_ratio = 0.5;
+    EXPECT_NE(refusal(s, test::single_grain()).find("lens_potential"), std::string::npos);
 }
 
 TEST(Input, ACheckpointOfAnotherPackingIsRefused) {
