@@ -58,7 +58,8 @@ done
 } | table overview
 "$softgrain" --version | sed 's/^/Made with /; s/$/\n/' | table version
 if ! $quick; then
-    mkdir -p docs/figures/mollon2022
-    rm -f docs/figures/mollon2022/*
-    cp "$made"/*.csv "$made"/*.png docs/figures/mollon2022/
+    rm -rf docs/figures/mollon2022
+    mkdir -p docs/figures/mollon2022/numbers
+    cp "$made"/*.png docs/figures/mollon2022/
+    cp "$made"/*.csv docs/figures/mollon2022/numbers/
 fi
