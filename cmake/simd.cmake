@@ -19,6 +19,10 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND SOFTGRAIN_SIMD_FLAGS -mprefer-vector-width=512 -march=x86-64)
 endif()
 
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  list(APPEND SOFTGRAIN_SIMD_FLAGS -Wno-pass-failed) # it warns of a loop that stays scalar
+endif()
+
 # softgrain_simd_sources(files...): their loops become vectors, for the processor found when the program
 # starts and not for the one it is built on. They must not include Eigen, whose layout follows -march.
 function(softgrain_simd_sources)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,9 +37,10 @@ Image sum(Image a, Image b) {
 
 }  // namespace
 
-NeighborGrid::NeighborGrid(std::span<const Vec2> x, std::span<const double> reach, double skin,
-                           const Box& cell)
-    : skin_(skin), cell_(cell) {
+void NeighborGrid::build(std::span<const Vec2> x, std::span<const double> reach, double skin,
+                         const Box& cell) {
+    skin_ = skin;
+    cell_ = cell;
     make_levels(reach);
     measure(x);
     sort(x, reach);
@@ -47,21 +49,22 @@ NeighborGrid::NeighborGrid(std::span<const Vec2> x, std::span<const double> reac
 /// Levels that hold grains, by actual reach.
 void NeighborGrid::make_levels(std::span<const double> reach) {
     const double largest = *std::max_element(reach.begin(), reach.end());
-    std::vector<Level> all(most_levels);
+    std::array<Level, most_levels> all{};
     level_of_.resize(reach.size());
     for (std::size_t i = 0; i < reach.size(); ++i) {
         const int l = level_for(reach[i], largest);
         Level& level = all[static_cast<std::size_t>(l)];
         level.largest_reach = std::max(level.largest_reach, reach[i]);
         ++level.grains;
-        level_of_[i] = l;
+        level_of_[i] = static_cast<std::int8_t>(l);
     }
-    std::vector<int> place(most_levels, 0);
+    levels_.clear();
+    std::array<std::int8_t, most_levels> place{};
     for (std::size_t l = 0; l < all.size(); ++l) {
-        place[l] = static_cast<int>(levels_.size());
+        place[l] = static_cast<std::int8_t>(levels_.size());
         if (all[l].grains > 0) levels_.push_back(all[l]);
     }
-    for (int& l : level_of_) l = place[static_cast<std::size_t>(l)];
+    for (std::int8_t& l : level_of_) l = place[static_cast<std::size_t>(l)];
 }
 
 /// The area that the grids cover, and its division for each level.
@@ -115,40 +118,40 @@ NeighborGrid::Unit NeighborGrid::unit(const Vec2& x) const {
 /// Counting sort into cells; within a cell grains stay in order of index.
 void NeighborGrid::sort(std::span<const Vec2> x, std::span<const double> reach) {
     const std::size_t n = x.size();
-    std::vector<std::size_t> cell(n);
-    std::vector<Image> wrapped_by(cell_.periodic ? n : 0);
+    cell_by_grain_.resize(n);
+    image_by_grain_.resize(cell_.periodic ? n : 0);
     for (std::size_t i = 0; i < n; ++i) {
         const Level& level = levels_[static_cast<std::size_t>(level_of_[i])];
         Vec2 at = x[i];
         if (cell_.periodic) {
-            wrapped_by[i] = cell_.image_of(at);
-            at -= cell_.image(wrapped_by[i]);
+            image_by_grain_[i] = cell_.image_of(at);
+            at -= cell_.image(image_by_grain_[i]);
         }
         const Unit p = unit(at);
-        cell[i] = level.first_cell + static_cast<std::size_t>(index_in(p.v, level.rows) * level.columns +
-                                                              index_in(p.u, level.columns));
-        ++start_[cell[i] + 1];
+        const int own = index_in(p.v, level.rows) * level.columns + index_in(p.u, level.columns);
+        cell_by_grain_[i] = static_cast<std::uint32_t>(level.first_cell) + static_cast<std::uint32_t>(own);
+        ++start_[cell_by_grain_[i] + 1];
     }
     for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-    std::vector<std::size_t> fill(start_.begin(), start_.end() - 1);
+    fill_.assign(start_.begin(), start_.end() - 1);
     order_.resize(n);
     level_.resize(n);
     cell_of_.resize(n);
     x_.resize(n);
     y_.resize(n);
     reach_.resize(n);
-    wrapped_by_.resize(wrapped_by.size());
+    wrapped_by_.resize(image_by_grain_.size());
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t s = fill[cell[i]]++;
-        const auto l = static_cast<std::size_t>(level_of_[i]);
+        const std::size_t s = fill_[cell_by_grain_[i]]++;
+        const std::size_t first_cell = levels_[static_cast<std::size_t>(level_of_[i])].first_cell;
         Vec2 at = x[i];
         if (cell_.periodic) {
-            at -= cell_.image(wrapped_by[i]);
-            wrapped_by_[s] = wrapped_by[i];
+            at -= cell_.image(image_by_grain_[i]);
+            wrapped_by_[s] = image_by_grain_[i];
         }
         order_[s] = static_cast<int>(i);
         level_[s] = level_of_[i];
-        cell_of_[s] = static_cast<int>(cell[i] - levels_[l].first_cell);
+        cell_of_[s] = static_cast<int>(cell_by_grain_[i] - first_cell);
         x_[s] = at.x();
         y_[s] = at.y();
         reach_[s] = reach[i];
@@ -195,8 +198,8 @@ void NeighborGrid::scan(std::size_t s, const Level& level, int row, int first_co
     const std::size_t row_start =
         level.first_cell + static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns);
     const auto columns = [&](int first, int last, std::int8_t turn) {
-        const auto begin = start_[row_start + static_cast<std::size_t>(first)];
-        const auto end = start_[row_start + static_cast<std::size_t>(last) + 1];
+        const std::size_t begin = start_[row_start + static_cast<std::size_t>(first)];
+        const std::size_t end = start_[row_start + static_cast<std::size_t>(last) + 1];
         test(s, turn == 0 ? std::max(begin, after) : begin, end, {turn, image.y}, found);
     };
     if (cell_.periodic && first_column < 0) columns(level.columns - 1, level.columns - 1, -1);

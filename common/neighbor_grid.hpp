@@ -1,11 +1,12 @@
 #pragma once
 // Grids of cells for grains of very different size: a grid for each class of reach, all over one area.
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/box.hpp"
-#include "common/neighbors.hpp"
+#include "common/vec.hpp"
 
 namespace softgrain {
 
@@ -16,11 +17,12 @@ struct FoundPair {
 };
 
 /// Grains in cell order. A level holds the grains whose reach is within a factor of two; its cells are as
-/// large as two of them reach. Every pair is found from its grain of the finer level.
+/// large as two of them reach. Every pair is found from its grain of the finer level. Keeps its storage for
+/// the next build.
 class NeighborGrid {
   public:
     /// Throws InputError if `cell` is periodic and too small.
-    NeighborGrid(std::span<const Vec2> x, std::span<const double> reach, double skin, const Box& cell);
+    void build(std::span<const Vec2> x, std::span<const double> reach, double skin, const Box& cell);
 
     /// Pairs found from the grains first to last - 1 of the cell order, in no useful order.
     void find(std::size_t first, std::size_t last, std::vector<FoundPair>& found) const;
@@ -51,14 +53,18 @@ class NeighborGrid {
     void test(std::size_t s, std::size_t first, std::size_t last, Image image,
               std::vector<FoundPair>& found) const;
 
-    double skin_;
-    Box cell_;                        ///< periodic cell, or the rectangle around the centres
-    double across_x_, across_y_;      ///< its thickness across columns and rows [m]
-    std::vector<Level> levels_;       ///< coarse to fine
-    std::vector<int> level_of_;       ///< [n] by grain
-    std::vector<std::size_t> start_;  ///< [cells + 1] into the cell order
+    double skin_ = 0.0;
+    Box cell_;                                 ///< periodic cell, or the rectangle around the centres
+    double across_x_ = 0.0, across_y_ = 0.0;   ///< its thickness across columns and rows [m]
+    std::vector<Level> levels_;                ///< coarse to fine
+    std::vector<std::uint32_t> start_, fill_;  ///< [cells + 1] into the cell order
+    // by grain [n]
+    std::vector<std::int8_t> level_of_;
+    std::vector<std::uint32_t> cell_by_grain_;
+    std::vector<Image> image_by_grain_;
     // in cell order [n]
-    std::vector<int> order_, level_, cell_of_;
+    std::vector<int> order_, cell_of_;
+    std::vector<std::int8_t> level_;
     std::vector<double> x_, y_, reach_;  ///< wrapped into a periodic cell
     std::vector<Image> wrapped_by_;
 };

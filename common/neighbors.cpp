@@ -1,35 +1,27 @@
 #include "common/neighbors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "common/neighbor_grid.hpp"
 
 namespace softgrain {
 namespace {
 
-constexpr std::size_t worth_threads = 20'000;  ///< grains
+constexpr std::size_t worth_threads = 20'000;        ///< grains of a build
+constexpr std::size_t worth_stale_threads = 50'000;  ///< grains of a look: it takes 2 ns for each
 constexpr std::size_t blocks = 32;
 
-struct Partner {
-    int j;
-    Image image;
-};
+}  // namespace
 
-/// Pairs of all blocks, in an order that does not depend on the number of threads.
-std::array<std::vector<FoundPair>, blocks> find_in_blocks(const NeighborGrid& grid) {
-    std::array<std::vector<FoundPair>, blocks> found;
-    const std::size_t n = grid.size();
+/// Pairs of all blocks of grains, in an order that does not depend on the number of threads.
+void NeighborList::find_pairs() {
+    const std::size_t n = grid_.size();
+    found_.resize(blocks);
 #pragma omp parallel for schedule(dynamic) if (n > worth_threads)
     for (std::size_t b = 0; b < blocks; ++b) {
-        found[b].reserve(4 * n / blocks);
-        grid.find(b * n / blocks, (b + 1) * n / blocks, found[b]);
+        found_[b].clear();
+        grid_.find(b * n / blocks, (b + 1) * n / blocks, found_[b]);
     }
-    return found;
 }
-
-}  // namespace
 
 void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach, double skin) {
     build(x, reach, skin, Box{});
@@ -44,30 +36,29 @@ void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach,
     pairs_.clear();
     images_.clear();
     if (x.empty()) return;
-    const NeighborGrid grid(x, reach, skin, cell);
-    const auto found = find_in_blocks(grid);
+    grid_.build(x, reach, skin, cell);
+    find_pairs();
 
     // Counting sort by i, then each grain's partners by j.
     const std::size_t n = x.size();
-    std::vector<std::size_t> start(n + 1, 0);
-    for (const auto& block : found)
-        for (const FoundPair& p : block) ++start[static_cast<std::size_t>(p.i) + 1];
-    for (std::size_t i = 0; i < n; ++i) start[i + 1] += start[i];
-    std::vector<Partner> partner(start[n]);
-    std::vector<std::size_t> fill(start.begin(), start.end() - 1);
-    for (const auto& block : found)
-        for (const FoundPair& p : block) partner[fill[static_cast<std::size_t>(p.i)]++] = {p.j, p.image};
+    start_.assign(n + 1, 0);
+    for (const auto& block : found_)
+        for (const FoundPair& p : block) ++start_[static_cast<std::size_t>(p.i) + 1];
+    for (std::size_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
+    partner_.resize(start_[n]);
+    fill_.assign(start_.begin(), start_.end() - 1);
+    for (const auto& block : found_)
+        for (const FoundPair& p : block) partner_[fill_[static_cast<std::size_t>(p.i)]++] = {p.j, p.image};
 
-    pairs_.resize(partner.size());
-    if (cell.periodic) images_.resize(partner.size());
+    pairs_.resize(partner_.size());
+    if (cell.periodic) images_.resize(partner_.size());
 #pragma omp parallel for schedule(static) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) {
-        const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(start[i]);
-        const auto end = partner.begin() + static_cast<std::ptrdiff_t>(start[i + 1]);
-        std::sort(begin, end, [](const Partner& a, const Partner& b) { return a.j < b.j; });
-        for (std::size_t k = start[i]; k < start[i + 1]; ++k) {
-            pairs_[k] = {static_cast<int>(i), partner[k].j};
-            if (cell.periodic) images_[k] = partner[k].image;
+        std::sort(partner_.begin() + start_[i], partner_.begin() + start_[i + 1],
+                  [](const Partner& a, const Partner& b) { return a.j < b.j; });
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
+            pairs_[k] = {static_cast<int>(i), partner_[k].j};
+            if (cell.periodic) images_[k] = partner_[k].image;
         }
     }
 }
@@ -99,7 +90,7 @@ bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach,
     const double* const grown = reach.data();
     const double* const built = built_reach_.data();
     int stale = 0;
-#pragma omp parallel for simd schedule(static) reduction(| : stale) if (parallel : n > worth_threads)
+#pragma omp parallel for simd schedule(static) reduction(| : stale) if (parallel : n > worth_stale_threads)
     for (std::size_t k = 0; k < n; ++k) {
         const double dx = now[2 * k] - (shift.x() + xx * then[2 * k] + xy * then[2 * k + 1]);
         const double dy = now[2 * k + 1] - (shift.y() + yy * then[2 * k + 1]);

@@ -1,10 +1,12 @@
 #pragma once
 // Grids of cells + Verlet list: candidate pairs that stay complete while displacement and growth are below
 // the skin.
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/box.hpp"
+#include "common/neighbor_grid.hpp"
 #include "common/vec.hpp"
 
 namespace softgrain {
@@ -42,12 +44,24 @@ class NeighborList {
     std::span<const double> built_reach() const { return built_reach_; }
 
   private:
+    void find_pairs();
+
     double skin_ = 0.0;
     Box built_cell_;
     std::vector<Pair> pairs_;
     std::vector<Image> images_;
     std::vector<Vec2> built_at_;
     std::vector<double> built_reach_;
+
+    // storage of a build, kept for the next one
+    struct Partner {
+        int j;
+        Image image;
+    };
+    NeighborGrid grid_;
+    std::vector<std::vector<FoundPair>> found_;  ///< by block of grains
+    std::vector<std::uint32_t> start_, fill_;    ///< [n + 1] of each grain's partners
+    std::vector<Partner> partner_;
 };
 
 }  // namespace softgrain

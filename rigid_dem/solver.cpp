@@ -84,32 +84,6 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
     account_energy(dt);
 }
 
-/// A change of the cell's motion moves all grains with it, so that it does not start at the boundary.
-void RigidDem::carry_along(const WallMotion& walls) {
-    for (std::size_t i = 0; i < x_.size(); ++i)
-        v_[i] += walls.affine_velocity(x_[i]) - walls_.affine_velocity(x_[i]);
-}
-
-/// Grains go back into the cell; in the other image the flow has another velocity.
-void RigidDem::wrap(const WallMotion& walls) {
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        const Image image = walls.box.image_of(x_[i]);
-        if (image == Image{}) continue;
-        x_[i] -= walls.box.image(image);
-        v_[i] -= walls.image_velocity(image);
-    }
-}
-
-/// Velocity at the time of the positions, half a kick later, against the flow of the cell.
-Mat2 RigidDem::kinetic_tensor(double dt) const {
-    Mat2 sum = Mat2::Zero();
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        const Vec2 c = v_[i] + force_[i] * (0.5 * dt / mass_[i]) - walls_.affine_velocity(x_[i]);
-        sum += mass_[i] * c * c.transpose();
-    }
-    return sum;
-}
-
 void RigidDem::list_neighbors() {
     const std::vector<Pair> old(neighbors_.pairs().begin(), neighbors_.pairs().end());
     const double smallest = *std::min_element(radius_.begin(), radius_.end());
@@ -133,12 +107,6 @@ void RigidDem::list_neighbors() {
     pair_damping_.assign(pairs.size(), 0.0);
 }
 
-Vec2 RigidDem::branch(std::size_t pair) const {
-    const Pair& p = neighbors_.pairs()[pair];
-    const Vec2 direct = x_[static_cast<std::size_t>(p.j)] - x_[static_cast<std::size_t>(p.i)];
-    return box_.periodic ? direct + box_.flipped(flips_).image(neighbors_.images()[pair]) : direct;
-}
-
 void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
     const WallMotion cell = walls.flipped(flips_);
     if (law_.friction > 0.0) {
@@ -149,12 +117,6 @@ void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
         gather_forces<false>(cell, dt);
     }
     if (box_.periodic) sum_virial();
-}
-
-void RigidDem::sum_virial() {
-    cell_virial_.setZero();
-    for (std::size_t k = 0; k < overlap_.size(); ++k)
-        if (overlap_[k] > 0.0) cell_virial_ -= pair_force_[k] * branch(k).transpose();
 }
 
 template <bool with_friction>

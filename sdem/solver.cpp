@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t pairs_per_chunk = 128;
 constexpr int steps_per_time_step_check = 16;
+constexpr int steps_per_energy_check = 128;
 constexpr double worth_a_change = 1.25;
 
 }  // namespace
@@ -127,6 +128,7 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     grains_.center.swap(grains_.next_center);  // next_center now holds the last one
     if (bad < size()) throw_bad_grain(bad);
     refresh_contacts(dt);
+    if (steps_ % steps_per_energy_check == 0) watch_energy();
 }
 
 void SoftDiscSolver::refresh_contacts(double dt) {
@@ -408,6 +410,31 @@ EnergyLedger SoftDiscSolver::energy() const {
     }
     if (has_potential()) ledger.elastic = potential_energy();
     return ledger;
+}
+
+/// A step beyond the stability limit feeds energy in. The law as printed has no potential; that of the other
+/// law is then a fair measure, as far as a factor goes.
+void SoftDiscSolver::watch_energy() {
+    constexpr double largest_gain = 0.05, largest_gain_without_potential = 1.0, rounding = 1e-12;
+    const EnergyLedger ledger = energy();
+    const double elastic = has_potential() ? ledger.elastic : potential_energy();
+    const Balance now{ledger.kinetic + elastic + ledger.dissipated() - ledger.external_work,
+                      ledger.kinetic + elastic, ledger.external_work, true};
+    const double gain = now.energy - balance_.energy;
+    const double allowed = has_potential() ? largest_gain : largest_gain_without_potential;
+    const double scale = balance_.held + std::abs(now.external_work - balance_.external_work) +
+                         rounding * stress_scale() * motion_.box.area();
+    if (balance_.watched && !(gain <= allowed * scale)) {
+        std::size_t fastest = 0;
+        for (std::size_t g = 1; g < size(); ++g)
+            if (grains_.grain[g].F_rate.squared() > grains_.grain[fastest].F_rate.squared()) fastest = g;
+        throw DivergedError(
+            packing_index(fastest), "energy", time_,
+            fmt::format("{:.3g} J came from nowhere in {} steps, with {:.3g} J in all; use a smaller "
+                        "sdem.safety",
+                        gain, steps_per_energy_check, now.held));
+    }
+    balance_ = now;
 }
 
 }  // namespace softgrain::sdem

@@ -89,6 +89,8 @@ class SoftDiscSolver : public Solver {
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
+    /// Throws DivergedError if energy has come from nowhere since the last call.
+    void watch_energy();
 
     void fill_state();
     void fill_areas();
@@ -106,6 +108,12 @@ class SoftDiscSolver : public Solver {
     std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
+    struct Balance {
+        double energy = 0.0;  ///< kinetic + elastic + dissipated - external work [J]
+        double held = 0.0;    ///< kinetic + elastic [J]
+        double external_work = 0.0;
+        bool watched = false;
+    } balance_;  ///< when the energy was last watched
     std::array<Vec2, 4> wall_damping_force_{};
     CellStress cell_stress_;
 

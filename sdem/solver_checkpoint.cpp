@@ -159,6 +159,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         load_history(from, "wall", contacts_.wall_pairs().size(), contacts_.wall_history);
     }
     lattice_ = cell().box;
+    balance_ = Balance{};
     refresh_contacts(0.0);  // no new candidates for a state as it was saved
 }
 

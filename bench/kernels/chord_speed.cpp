@@ -21,7 +21,8 @@ struct Scene {
     std::vector<Ellipse> a, b;
     std::vector<Vec2> step;
 
-    Scene() {
+    /// Pairs 1e-3 to 0.2 deep, or as far apart if `sign` is -1.
+    explicit Scene(double sign) {
         std::mt19937_64 random(1);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
         const auto F = [&] {
@@ -37,7 +38,7 @@ struct Scene {
             const Vec2 n{std::cos(angle), std::sin(angle)};
             const auto reach = [&](const Mat2& m) { return Vec2{m * (m.transpose() * n).normalized()}; };
             const Vec2 touch = a.back().center + reach(a.back().axes) + R * reach(F_b);
-            b.push_back(make_ellipse(touch - depth * n, F_b, R));
+            b.push_back(make_ellipse(touch - sign * depth * n, F_b, R));
             const double turn = 6.28 * unit(random);
             step.push_back(1e-4 * Vec2{std::cos(turn), std::sin(turn)});
         }
@@ -103,7 +104,7 @@ double batch_time(const Scene& scene, void (*solve)(ChordBatch&), double millise
 }
 
 void measure(double milliseconds) {
-    Scene scene;
+    Scene scene(1.0), apart(-1.0);
     fmt::print("{:<28}{:>10}\n", "method", "ns/contact");
     const auto report = [](const char* name, double time) { fmt::print("{:<28}{:>10.2f}\n", name, time); };
 
@@ -123,6 +124,14 @@ void measure(double milliseconds) {
                                    sum += chord_of(scene.a[k], scene.b[k], warm[k]).length;
                            },
                            milliseconds));
+    std::vector<WarmStart> deepest(contacts);
+    report("chord_of, apart", nanoseconds(
+                                  [&](double sign) {
+                                      apart.move(sign);
+                                      for (int k = 0; k < contacts; ++k)
+                                          sum += chord_of(apart.a[k], apart.b[k], deepest[k]).length;
+                                  },
+                                  milliseconds));
     report("solve_chords", batch_time(scene, solve_chords, milliseconds));
     for (const ChordVariant& variant : chord_variants())
         if (variant.runs) report(variant.name, batch_time(scene, variant.solve, milliseconds));

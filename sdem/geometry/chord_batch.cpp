@@ -10,10 +10,16 @@ namespace {
 
 using Lanes = ChordBatch::Lanes;
 
-/// One end of the chord on b's unit circle, and g and g' (up to a factor) one step before.
+/// About a guess u of one end of the chord, with v = u turned by +90 degrees, b's unit circle is
+/// ((1 - t^2) u + 2 t v) / (1 + t^2), and (1 + t^2)^2 g is the quartic c0 + c1 t + ... + c4 t^4.
+struct Quartic {
+    alignas(64) Lanes ux, uy, c0, c1, c2, c3, c4;
+    alignas(64) Lanes back;    // -t after the first step towards the root
+    alignas(64) Lanes excess;  // | |guess|^2 - 1 |
+};
+/// One end, and quartic and slope one step before.
 struct End {
     alignas(64) Lanes x, y, value, slope;
-    alignas(64) Lanes guess_error;  // | |guess|^2 - 1 |
 };
 /// One cap: q = tan(psi/2), 4 sin^2(psi/2), and det A.
 struct Cap {
@@ -23,6 +29,7 @@ struct Cap {
 struct Work {
     alignas(64) Lanes dx, dy, xx, xy, yx, yy;  // d and B of chord.hpp
     alignas(64) Lanes one_minimum;             // > 0 if g has one minimum
+    Quartic quartic_a, quartic_b;
     End end_a, end_b;
     Cap cap_a, cap_b;
 };
@@ -57,38 +64,39 @@ SOFTGRAIN_INLINE void find_level(const ChordBatch& in, Work& w, int k) {
     w.xx[k] = xx, w.xy[k] = xy, w.yx[k] = yx, w.yy[k] = yy;
 }
 
-/// One end from its guess u. With v = u turned by +90 degrees, the circle is (1 - t^2) u + 2 t v over 1 +
-/// t^2, and (1 + t^2)^2 g is a quartic in t: c0 + c1 t + ... + c4 t^4. Two steps find its root near t = 0.
-SOFTGRAIN_INLINE void find_end(const Work& w, const Lanes& guess_x, const Lanes& guess_y, End& end, int k) {
+/// Koenig's step of order 4: the ratio of two consecutive Taylor coefficients of 1/quartic at t = 0.
+SOFTGRAIN_INLINE void first_step(const Work& w, const Lanes& guess_x, const Lanes& guess_y, Quartic& q,
+                                 int k) {
     // Length 1 but for rounding to float: the error left is its cube.
     const double excess = (guess_x[k] * guess_x[k] + guess_y[k] * guess_y[k]) - 1.0;
     const double scale = 1.0 - excess * (0.5 - 0.375 * excess);
-    const Vector u{scale * guess_x[k], scale * guess_y[k]};
-    const Vector d{w.dx[k], w.dy[k]};
+    const Vector u{scale * guess_x[k], scale * guess_y[k]}, d{w.dx[k], w.dy[k]};
     const Vector p{w.xx[k] * u.x + w.xy[k] * u.y, w.yx[k] * u.x + w.yy[k] * u.y};  // B u
     const Vector v{w.xy[k] * u.x - w.xx[k] * u.y, w.yy[k] * u.x - w.yx[k] * u.y};  // B v
     const Vector near{d.x + p.x, d.y + p.y}, far{d.x - p.x, d.y - p.y}, v2{twice(v.x), twice(v.y)};
     const double c0 = dot(near, near) - 1.0, c1 = twice(dot(near, v2));
     const double c2 = dot(v2, v2) + twice(dot(near, far) - 1.0);
     const double c3 = twice(dot(v2, far)), c4 = dot(far, far) - 1.0;
-
-    // Koenig's step of order 4: the ratio of two consecutive Taylor coefficients of 1/quartic at 0.
     const double c02 = c0 * c2, d2 = c1 * c1 - c02, d3 = c1 * (d2 - c02) + (c0 * c0) * c3;
-    const double s = c0 * d2 / d3;  // -t
+    q.ux[k] = u.x, q.uy[k] = u.y;
+    q.c0[k] = c0, q.c1[k] = c1, q.c2[k] = c2, q.c3[k] = c3, q.c4[k] = c4;
+    q.back[k] = c0 * d2 / d3;
+    q.excess[k] = std::abs(excess);
+}
 
-    // Halley's step from there.
+/// Halley's step from there, and the end itself.
+SOFTGRAIN_INLINE void second_step(const Quartic& q, End& end, int k) {
+    const double s = q.back[k], c0 = q.c0[k], c1 = q.c1[k], c2 = q.c2[k], c3 = q.c3[k], c4 = q.c4[k];
     const double a4 = c4 * s, a3 = c3 - a4, b3 = (twice(a3) + a3) - a4;  // c3 + c4 t; 3 c3 + 4 c4 t
     const double value = c0 - s * (c1 - s * (c2 - s * a3));
     const double slope = c1 - s * (twice(c2) - s * b3);
     const double half_curvature = c2 - s * (b3 - twice(a4));
     const double t = -s - value * slope / (slope * slope - value * half_curvature);
-
     const double square = t * t, norm = 1.0 / (1.0 + square);
     const double cosine = (1.0 - square) * norm, sine = twice(t) * norm;
-    end.x[k] = cosine * u.x - sine * u.y;
-    end.y[k] = cosine * u.y + sine * u.x;
+    end.x[k] = cosine * q.ux[k] - sine * q.uy[k];
+    end.y[k] = cosine * q.uy[k] + sine * q.ux[k];
     end.value[k] = std::abs(value), end.slope[k] = slope;
-    end.guess_error[k] = std::abs(excess);
 }
 
 /// Chord, depths, and whether to trust them.
@@ -119,14 +127,12 @@ SOFTGRAIN_INLINE void finish_chord(ChordBatch& out, Work& w, int k) {
     out.cover_a[k] = 0.25 * product_a, out.cover_b[k] = 0.25 * product_b;
 
     // As in chord.hpp: the last step next to the opening, and the smallest opening.
-    constexpr double settled = 5e-6, smallest = 1e-3, float_rounding = 1e-6;
+    constexpr double settled = 5e-6, smallest = 1e-3, rounded = 1e-6;
     const double band = 0.5 * settled * twice_sine_b;
     const bool found =
         (w.end_a.value[k] <= band * -w.end_a.slope[k]) & (w.end_b.value[k] <= band * w.end_b.slope[k]);
-    const bool guessed =
-        (w.end_a.guess_error[k] < float_rounding) & (w.end_b.guess_error[k] < float_rounding);
-    const bool sizes = (twice_sine_b > 2.0 * smallest) & (y4_a <= largest_y4) & (y4_b <= largest_y4) &
-                       (product_a > 0.0) & (product_b > 0.0);
+    const bool guessed = (w.quartic_a.excess[k] < rounded) & (w.quartic_b.excess[k] < rounded);
+    const bool sizes = (twice_sine_b > 2.0 * smallest) & (y4_a <= largest_y4) & (y4_b <= largest_y4);
     const bool sound = found & guessed & sizes & (w.one_minimum[k] > 0.0);
     out.sound[k] = sound ? 1.0 : 0.0;
     out.end_ax[k] = sound ? a.x : out.end_ax[k];
@@ -147,19 +153,23 @@ SOFTGRAIN_INLINE void find_cap(const Cap& cap, Lanes& area, Lanes& cover, int k)
 SOFTGRAIN_CLONES void solve_chords(ChordBatch& batch) {
     constexpr int width = 8;  // whole registers only
     const int lanes = (batch.count + width - 1) / width * width;
-    Work work;
+    Work w;
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) find_level(batch, work, k);
+    for (int k = 0; k < lanes; ++k) find_level(batch, w, k);
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) find_end(work, batch.end_ax, batch.end_ay, work.end_a, k);
+    for (int k = 0; k < lanes; ++k) first_step(w, batch.end_ax, batch.end_ay, w.quartic_a, k);
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) find_end(work, batch.end_bx, batch.end_by, work.end_b, k);
+    for (int k = 0; k < lanes; ++k) first_step(w, batch.end_bx, batch.end_by, w.quartic_b, k);
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) finish_chord(batch, work, k);
+    for (int k = 0; k < lanes; ++k) second_step(w.quartic_a, w.end_a, k);
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) find_cap(work.cap_a, batch.cap_a, batch.cover_a, k);
+    for (int k = 0; k < lanes; ++k) second_step(w.quartic_b, w.end_b, k);
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) find_cap(work.cap_b, batch.cap_b, batch.cover_b, k);
+    for (int k = 0; k < lanes; ++k) finish_chord(batch, w, k);
+#pragma omp simd
+    for (int k = 0; k < lanes; ++k) find_cap(w.cap_a, batch.cap_a, batch.cover_a, k);
+#pragma omp simd
+    for (int k = 0; k < lanes; ++k) find_cap(w.cap_b, batch.cap_b, batch.cover_b, k);
 }
 
 }  // namespace softgrain::sdem

@@ -106,6 +106,60 @@ TEST_F(CommandLine, HelpAndVersionAndList) {
     EXPECT_NE(softgrain({"list", "--keys"}).out.find("youngs_modulus"), std::string::npos);
 }
 
+/// Methods without a cell are named and left out, the others go on; mixed grains, shear and its columns.
+TEST_F(CommandLine, AShearedCellOfMixedGrains) {
+    const fs::path cell = write("cell.toml",
+                                "[packing]\nsize_law = \"single\"\ncount = 30\n[box]\nperiodic = true\n"
+                                "[[grain_class]]\nname = \"soft\"\n[[grain_class]]\nname = \"stiff\"\n"
+                                "youngs_modulus = 5\n"
+                                "[[loading]]\nuntil_strain = 0.01\nstrain_rate = 2e-3\n"
+                                "[[loading]]\nkind = \"shear\"\nuntil_shear = 0.04\nstrain_rate = 2e-3\n"
+                                "[sampling]\nstrain_interval = 0.005\nframe_every = 3\n");
+    const Outcome o = softgrain({"compare", cell.string(), "--methods", "bpm,rigid_dem", "--out",
+                                 (folder / "c").string(), "--quiet", "--no-pictures"});
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_NE(o.err.find("box.periodic = true is not for bpm"), std::string::npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    const History h = read_history(folder / "c" / "rigid_dem" / "history.csv");
+    ASSERT_EQ(h.rows(), 1U + 2U + 8U);
+    EXPECT_NEAR(h.column("shear_strain").back(), 0.04, 1e-10);
+    EXPECT_NEAR(h.column("axial_strain").back(), 0.01, 1e-10);
+    EXPECT_GT(h.column("mean_stress").back(), 0.0);
+    EXPECT_LT(h.column("stress_xy").back(), 0.0);
+    EXPECT_NE(content(folder / "c" / "initial_packing.csv").find("box.periodic = true\nx,y,r,class\n"),
+              std::string::npos);
+    EXPECT_NE(content(folder / "c" / "rigid_dem" / "grains" / "grains_000000.vtp").find("grain_class"),
+              std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "c" / "rigid_dem" / "walls.pvd"));
+
+    // The packing written there, read as a file, is the same packing.
+    const fs::path again = write("again.toml", content(folder / "c" / "rigid_dem" / "scenario.toml"));
+    const std::string comment = content(folder / "c" / "initial_packing.csv");
+    const auto number_after = [&](const std::string& key) {
+        const auto at = comment.find(key) + key.size();
+        return comment.substr(at, comment.find_first_of(",\n", at) - at);
+    };
+    const Outcome from_file =
+        softgrain({"run", again.string(), "--method", "rigid_dem", "--out", (folder / "f").string(),
+                   "--quiet", "--set", "packing.path=" + (folder / "c" / "initial_packing.csv").string(),
+                   "--set", "box.width=" + number_after("box.width = "), "--set",
+                   "box.height=" + number_after("box.height = ")});
+    ASSERT_EQ(from_file.exit_code, 0) << from_file.err;
+    EXPECT_EQ(content(folder / "f" / "history.csv"), content(folder / "c" / "rigid_dem" / "history.csv"));
+}
+
+TEST_F(CommandLine, AStageThatTurnsOutToBeginBeyondItsEndIsBadInput) {
+    const fs::path back = small_scenario("2e-2", "[[loading]]\nuntil_strain = 0.001\nstrain_rate = 1e-2\n");
+    const Outcome known = softgrain({"validate", back.string()});
+    EXPECT_EQ(known.exit_code, 2);
+    EXPECT_NE(known.err.find("loading.1.until_strain must be above 0.02"), std::string::npos) << known.err;
+    const Outcome o = softgrain({"run", back.string(), "--method", "rigid_dem", "--out",
+                                 (folder / "b").string(), "--quiet", "--set", "loading.0.until_stress=1e-3"});
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_NE(o.out.find("loading.1.until_strain = 0.001 is below the 0.0"), std::string::npos) << o.out;
+    EXPECT_NE(content(folder / "b" / "run.json").find("\"exit_code\": 2"), std::string::npos);
+}
+
 TEST_F(CommandLine, BadInputIsExitTwoWithThePlace) {
     const fs::path bad = write("bad.toml",
                                "[material]\nyoungs_modulus = -1\npoison_ratio = 0.3\n[[loading]]\n"

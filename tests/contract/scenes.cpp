@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "common/packing/jam.hpp"
+#include "common/packing/size_laws.hpp"
+
 namespace softgrain::testing {
 
 const std::vector<Bands>& all_bands() {
@@ -12,7 +15,7 @@ const std::vector<Bands>& all_bands() {
         // seen between images); stick-slip never quite comes to rest; pores between the bumps of two grains
         // that touch count as covered.
         {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0},
-        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0},
+        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-8},
     };
     return table;
 }
@@ -70,18 +73,26 @@ Packing image_of(const Packing& packing, const Mat2& image) {
     return turned;
 }
 
+Packing periodic_cell(int grains) {
+    PackingSpec spec;
+    spec.count = grains;
+    Random random(4);
+    const auto radii = draw_radii(spec, random);
+    return jam(radii, {.periodic = true}, random).packing;
+}
+
 std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing) {
     return find_method(bands.method).make(scenario, packing);
 }
 
 namespace {
 
-Box drive(Solver& solver, Box box, const std::array<double, 4>& velocity, double time,
+Box drive(Solver& solver, Box box, const std::array<double, 4>& velocity, double tilt_rate, double time,
           const std::function<void(const Box&, double)>& after_step) {
     for (double done = 0.0; done < time * (1.0 - 1e-12);) {
         const double left = time - done;
         const double dt = left / std::max(1.0, std::ceil(left / solver.stable_time_step()));
-        const WallMotion motion{box, velocity};
+        const WallMotion motion{box, velocity, tilt_rate};
         solver.advance(motion, dt);
         box = motion.after(dt);
         done += dt;
@@ -96,7 +107,16 @@ Box squeeze(Solver& solver, Box box, double strain, double time,
             const std::function<void(const Box&, double)>& after_step) {
     const double vx = 0.5 * strain * box.width() / time;
     const double vy = 0.5 * strain * box.height() / time;
-    return drive(solver, box, {vx, -vx, vy, -vy}, time, after_step);
+    return drive(solver, box, {vx, -vx, vy, -vy}, 0.0, time, after_step);
+}
+
+Box deform(Solver& solver, Box box, double strain, double shear, double time,
+           const std::function<void(const Box&, double)>& after_step) {
+    const double vx = 0.5 * strain * box.width() / time;
+    const double vy = 0.5 * strain * box.height() / time;
+    // The second lattice vector shrinks as a whole.
+    const double tilt_rate = (shear * box.height() - strain * box.tilt) / time;
+    return drive(solver, box, {vx, -vx, vy, -vy}, tilt_rate, time, after_step);
 }
 
 Box push(Solver& solver, Box box, Wall wall, double strain, double time,
@@ -105,7 +125,7 @@ Box push(Solver& solver, Box box, Wall wall, double strain, double time,
     const double length = wall_axis(w) == 0 ? box.width() : box.height();
     std::array<double, 4> velocity{};
     velocity[static_cast<std::size_t>(w)] = wall_sign(w) * strain * length / time;
-    return drive(solver, box, velocity, time, after_step);
+    return drive(solver, box, velocity, 0.0, time, after_step);
 }
 
 }  // namespace softgrain::testing

@@ -24,6 +24,8 @@ struct Bands {
     double ledger;              ///< energy residual / external work
     double closed_pores;        ///< covered area may exceed the sum of grain areas by this share
     double loading_time;        ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
+    double cell =
+        0.0;  ///< periodic cell: relative difference of stress by another choice of its edges; 0: none
 };
 
 const std::vector<Bands>& all_bands();
@@ -44,12 +46,21 @@ Packing square_lattice(int side);
 /// The packing turned by 90 degrees or mirrored about the box's middle: x' = middle + image (x - middle).
 Packing image_of(const Packing& packing, const Mat2& image);
 
+/// Jammed discs in a periodic cell.
+Packing periodic_cell(int grains);
+
 std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing);
 
 /// All four walls close in by `strain` of the box during `time`; `after_step` sees the walls at the end of
 /// each step.
 Box squeeze(
     Solver& solver, Box box, double strain, double time,
+    const std::function<void(const Box&, double dt)>& after_step = [](const Box&, double) {});
+
+/// A periodic cell shrinks by `strain` in both directions and shears by `shear` (of its height) during
+/// `time`.
+Box deform(
+    Solver& solver, Box box, double strain, double shear, double time,
     const std::function<void(const Box&, double dt)>& after_step = [](const Box&, double) {});
 
 /// One wall moves in by `strain` of the box.

@@ -223,6 +223,7 @@ TEST(ChordBatch, HandsOverWhatItCannotDo) {
     EXPECT_FALSE(is_sound(disc, at(1.501, 0.5), warm)) << "opened";
     EXPECT_FALSE(is_sound(disc, at(0.3, 0.5), warm)) << "contained";
     EXPECT_FALSE(is_sound(disc, disc, warm)) << "coincident";
+    EXPECT_FALSE(is_sound(disc, at(1.45, 0.5), {1.01 * warm.a, 1.01 * warm.b})) << "guess off the circle";
     const WarmStart deepest{-Vec2::UnitX(), -Vec2::UnitX()};
     EXPECT_FALSE(is_sound(disc, at(1.45, 0.5), deepest)) << "apart until now";
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -232,12 +233,15 @@ TEST(ChordBatch, HandsOverWhatItCannotDo) {
     chord_of(disc, deep, warm);
     EXPECT_FALSE(is_sound(disc, deep, warm)) << "more than half a disc";
 
-    Mat2 flat, tall;
-    flat << 1.8, 0.0, 0.0, 0.4;
-    tall << 0.4, 0.0, 0.0, 1.8;
-    const Ellipse i = make_ellipse(Vec2::Zero(), flat, 1.0), j = make_ellipse(Vec2{0.3, 0.1}, tall, 1.0);
-    chord_of(i, j, warm);
-    EXPECT_FALSE(is_sound(i, j, warm)) << "four points";
+    // A thin grain along the edge of the disc: both tips outside, and its upper side too but for the middle.
+    Mat2 thin;
+    thin << 1.2, 0.0, 0.0, 0.1;
+    const Ellipse j = make_ellipse(Vec2{0.0, 0.94}, thin, 0.5);
+    const Chord pocket = chord_of(disc, j, warm);
+    ASSERT_EQ(pocket.overlap, Overlap::four_points);
+    const Vec2 half = 0.5 * pocket.length * perpendicular(pocket.normal);
+    warm = {j.inverse * (pocket.point + half - j.center), j.inverse * (pocket.point - half - j.center)};
+    EXPECT_FALSE(is_sound(disc, j, warm)) << "four points, from the very ends of a chord";
 }
 
 /// Slow compaction: the ends of one call start the next, and nearly no lane is handed over.

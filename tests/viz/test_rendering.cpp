@@ -68,6 +68,54 @@ struct PanelOnPicture {
     }
 };
 
+/// A sheared cell is drawn as a parallelogram with slanted sides, grains that stick out within the picture.
+TEST_P(Rendering, ACellIsDrawnWithItsTilt) {
+    HandMadeGrains grains(4, 0.1, 0.0);
+    grains.box.periodic = true;
+    grains.box.tilt = 0.4 * grains.box.width();
+    const fs::path run = folder.path() / "cell";
+    GrainWriter(run, Need::all).observe(grains.view(), frame_sample(0));
+    WallWriter(run).observe(grains.view(), frame_sample(0));
+    FramesSpec spec;
+    spec.runs = {{"cell", run}};
+    spec.at = {0.0};
+    spec.field = "mean_stress";
+    spec.out = folder.path() / "pictures";
+    spec.width = 800;
+    const auto error = render_frames(spec);
+    if (missing(error)) GTEST_SKIP() << *error;
+    ASSERT_FALSE(error) << *error;
+    const Picture picture(spec.out / "cell_1.png");
+    // Grains and cell span 1.4 widths; margins are 1.2 / 52 of the page on each side.
+    const double scale = (800.0 - 2.0 * 1.2 * 800.0 / 52.0) / (1.4 * 0.9);
+    const auto dark_near = [&](const Vec2& from_middle, double bottom) {
+        int found = 0;
+        for (int dx = -3; dx <= 3; ++dx)
+            for (int dy = -3; dy <= 3; ++dy) {
+                const int x = static_cast<int>(std::lround(400.0 + scale * from_middle.x())) + dx;
+                const int y = static_cast<int>(std::lround(bottom + scale * from_middle.y())) + dy;
+                found += is_near(picture.pixel(x, y), black, 40) ? 1 : 0;  // darker than outlines
+            }
+        return found > 0;
+    };
+    // The slanted sides cross the empty corners of the extent's rectangle: find the bottom edge first.
+    const int middle = 400;
+    int bottom = 0;
+    for (int y = 100; y < picture.height() / 2 && bottom == 0; ++y) {
+        int run_length = 0;
+        for (int x = middle - 250; x < middle; ++x)
+            run_length +=
+                is_near(picture.pixel(x, y), black, 90) || is_near(picture.pixel(x, y + 1), black, 90);
+        if (run_length > 240) bottom = y;
+    }
+    ASSERT_GT(bottom, 0) << "no bottom edge";
+    for (const double up : {0.02, 0.45, 0.88}) {
+        const double left = -0.63 + 0.4 * up;
+        EXPECT_TRUE(dark_near({left, up}, bottom)) << "left side at " << up;
+        EXPECT_TRUE(dark_near({left + 0.9, up}, bottom)) << "right side at " << up;
+    }
+}
+
 TEST_P(Rendering, GrainsHaveTheColoursOfTheirValues) {
     const fs::path run = folder.path() / "run";
     write_hand_made_run(run, 4, 3);

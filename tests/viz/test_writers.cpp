@@ -175,6 +175,98 @@ TEST_F(WritersTest, WallsCarryForceAndStress) {
     }
 }
 
+/// Grains of a sheared cell whose tilt is more than its width, two of them moved by whole images.
+class CellWritersTest : public WritersTest {
+  protected:
+    CellWritersTest() {
+        grains.box.periodic = true;
+        grains.box.tilt = 1.2 * grains.box.width();
+        for (std::size_t g : {0U, 7U}) {
+            const Vec2 away = grains.box.image(g == 0 ? 1 : -1, 1);
+            grains.centroid[g] += away;
+            for (int k = grains.outline_offset[g]; k < grains.outline_offset[g + 1]; ++k)
+                grains.outline_point[static_cast<std::size_t>(k)] += away;
+        }
+        std::erase_if(grains.contacts, [](const GrainContact& c) { return c.with_wall(); });
+        reduced = grains.box.reduced();
+    }
+    Box reduced;
+};
+
+TEST_F(CellWritersTest, GrainsAreDrawnInTheCell) {
+    std::vector<std::uint8_t> classes(grains.centroid.size(), 0);
+    classes[5] = 3;
+    GrainWriter(run, Need::all, classes).observe(grains.view(), frame_sample(0));
+    GrainWriter(run / "points", Need::area).observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "grains/grains_000000.vtp");
+    const auto points = read_back(run / "points/grains/grains_000000.vtp");
+    EXPECT_NEAR(reduced.tilt, 0.2 * grains.box.width(), 1e-15);
+    for (std::size_t g = 0; g < grains.centroid.size(); ++g) {
+        const Vec2 centre = point(*points, static_cast<vtkIdType>(g));
+        const Vec2 inside = reduced.lattice().inverse() * (centre - reduced.origin());
+        EXPECT_GE(inside.minCoeff(), 0.0);
+        EXPECT_LT(inside.maxCoeff(), 1.0);
+        // Moved by a whole image, and the outline with it.
+        EXPECT_NEAR(reduced.nearest(centre - grains.centroid[g]).norm(), 0.0, 1e-14);
+        const auto first = static_cast<std::size_t>(grains.outline_offset[g]);
+        const Vec2 corner = point(*data, data->GetCell(static_cast<vtkIdType>(g))->GetPointId(0));
+        EXPECT_NEAR((corner - centre - (grains.outline_point[first] - grains.centroid[g])).norm(), 0.0,
+                    1e-14);
+        EXPECT_EQ(value(*data, "grain_class", g), g == 5 ? 3.0 : 0.0);
+    }
+    EXPECT_EQ(points->GetCellData()->GetArray("grain_class"), nullptr);
+}
+
+TEST_F(CellWritersTest, ContactsAcrossTheEdgesAreDrawnAsHalves) {
+    ContactWriter(run).observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "contacts/contacts_000000.vtp");
+    vtkIdType cell = 0;
+    int halves = 0;
+    for (const GrainContact& c : grains.contacts) {
+        const Vec2 from = reduced.wrapped(grains.centroid[static_cast<std::size_t>(c.i)]);
+        const Vec2 to = reduced.wrapped(grains.centroid[static_cast<std::size_t>(c.j)]);
+        const Vec2 to_point = c.point - grains.centroid[static_cast<std::size_t>(c.i)];
+        const Vec2 to_j = reduced.nearest(grains.centroid[static_cast<std::size_t>(c.j)] -
+                                          grains.centroid[static_cast<std::size_t>(c.i)]);
+        const bool across = (from + to_j - to).norm() > 1e-9;
+        vtkCell* line = data->GetCell(cell);
+        ASSERT_EQ(line->GetNumberOfPoints(), across ? 2 : 3);
+        EXPECT_NEAR((point(*data, line->GetPointId(0)) - from).norm(), 0.0, 1e-14);
+        EXPECT_NEAR((point(*data, line->GetPointId(1)) - from - to_point).norm(), 0.0, 1e-14);
+        EXPECT_EQ(value(*data, "grain_j", static_cast<std::size_t>(cell)), c.j);
+        if (across) {
+            ++halves;
+            ++cell;
+            vtkCell* other = data->GetCell(cell);
+            ASSERT_EQ(other->GetNumberOfPoints(), 2);
+            EXPECT_NEAR((point(*data, other->GetPointId(0)) - to).norm(), 0.0, 1e-14);
+            EXPECT_NEAR((point(*data, other->GetPointId(1)) - to - (to_point - to_j)).norm(), 0.0, 1e-14);
+            EXPECT_EQ(value(*data, "normal_force", static_cast<std::size_t>(cell)),
+                      value(*data, "normal_force", static_cast<std::size_t>(cell) - 1));
+        }
+        ++cell;
+    }
+    EXPECT_EQ(cell, data->GetNumberOfLines());
+    EXPECT_GT(halves, 0);
+    EXPECT_LT(halves, static_cast<int>(grains.contacts.size()));
+}
+
+TEST_F(CellWritersTest, TheCellIsAParallelogram) {
+    WallWriter(run).observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "walls/walls_000000.vtp");
+    ASSERT_EQ(data->GetNumberOfPoints(), 4);
+    const Vec2 o = reduced.origin();
+    EXPECT_EQ(point(*data, 0), o);
+    EXPECT_NEAR((point(*data, 1) - o - reduced.image(1, 0)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((point(*data, 2) - o - reduced.image(1, 1)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((point(*data, 3) - o - reduced.image(0, 1)).norm(), 0.0, 1e-15);
+    ASSERT_NE(data->GetFieldData()->GetArray("periodic"), nullptr);
+    grains.box = Box{grains.box.position};
+    WallWriter(run / "walls_only").observe(grains.view(), frame_sample(0));
+    EXPECT_EQ(read_back(run / "walls_only/walls/walls_000000.vtp")->GetFieldData()->GetArray("periodic"),
+              nullptr);
+}
+
 TEST_F(WritersTest, CollectionListsEveryFrame) {
     WallWriter writer(run);
     for (int k = 0; k < 3; ++k) {

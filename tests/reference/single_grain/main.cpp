@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "quarter_grain.hpp"
@@ -17,30 +19,49 @@ namespace {
 
 using namespace softgrain::reference;
 
-constexpr double radius = 0.5, young = 1.0, spacing = 0.01;
+constexpr double radius = 0.5, young = 1.0;
+
+/// How far and how finely each set of walls is pressed.
+struct Closing {
+    std::string_view name;
+    Walls walls;
+    std::string_view text;
+    double spacing;
+    int count;
+};
+constexpr std::array closings = {
+    Closing{"four", Walls::four, "four rigid walls closing isotropically", 0.01, 25},
+    Closing{"two", Walls::two, "two rigid walls (diametral compression)", 0.01, 30},
+    Closing{"six", Walls::six, "six rigid walls closing as a regular hexagon", 0.01, 16},
+    Closing{"eight", Walls::eight, "eight rigid walls closing as a regular octagon", 0.005, 16},
+};
 
 struct Options {
     std::string folder;
     int elements = 32, volume_points = 2;
     std::vector<double> poisson = {0.0, 0.2, 0.3, 0.4, 0.45, 0.49};
-    std::vector<std::string> walls = {"four", "two"};
+    std::vector<std::string> walls = {"four", "two", "six", "eight"};
 };
 
-/// Walks from `from` to `to`, in halves as often as needed.
-GrainState press_to(QuarterGrain& grain, double from, double to, int depth = 0) {
-    if (const auto state = grain.press(to)) return *state;
+/// Walks from `from` to `to`, in halves as often as needed; std::nullopt if that fails too.
+std::optional<GrainState> press_to(QuarterGrain& grain, double from, double to, int depth = 0) {
+    if (const auto state = grain.press(to)) return state;
     constexpr int deepest = 8;
-    if (depth == deepest) throw std::runtime_error(fmt::format("no equilibrium at e = {}", to));
+    if (depth == deepest) return std::nullopt;
     const double middle = 0.5 * (from + to);
-    press_to(grain, from, middle, depth + 1);
+    if (!press_to(grain, from, middle, depth + 1)) return std::nullopt;
     return press_to(grain, middle, to, depth + 1);
 }
 
-std::vector<GrainState> curve(const Options& options, double poisson, Walls walls, int elements) {
-    QuarterGrain grain(radius, elements, Material(young, poisson), walls, options.volume_points);
-    const int count = walls == Walls::four ? 25 : 30;
+/// Ends early where there is no equilibrium: a corner that fills up turns elements inside out.
+std::vector<GrainState> curve(const Options& options, double poisson, const Closing& closing, int elements) {
+    QuarterGrain grain(radius, elements, Material(young, poisson), closing.walls, options.volume_points);
     std::vector<GrainState> states;
-    for (int k = 1; k <= count; ++k) states.push_back(press_to(grain, spacing * (k - 1), spacing * k));
+    for (int k = 1; k <= closing.count; ++k) {
+        const auto state = press_to(grain, closing.spacing * (k - 1), closing.spacing * k);
+        if (!state) break;
+        states.push_back(*state);
+    }
     return states;
 }
 
@@ -53,10 +74,13 @@ double difference(const std::vector<GrainState>& coarse, const std::vector<Grain
     return largest;
 }
 
-void write(const std::filesystem::path& path, const Options& options, double poisson, Walls walls) {
+void write(const std::filesystem::path& path, const Options& options, double poisson,
+           const Closing& closing) {
     const int fine_n = options.elements, coarse_n = fine_n / 2;
-    const auto coarse = curve(options, poisson, walls, coarse_n),
-               fine = curve(options, poisson, walls, fine_n);
+    auto coarse = curve(options, poisson, closing, coarse_n), fine = curve(options, poisson, closing, fine_n);
+    const std::size_t common = std::min(coarse.size(), fine.size());
+    if (common < 3) throw std::runtime_error(fmt::format("fewer than three equilibria at nu = {}", poisson));
+    coarse.resize(common), fine.resize(common);
     std::ofstream out(path);
     out << fmt::format(
         "# One soft disc, diameter 1, E = 1, nu = {}, plane strain, frictionless, {}; resolved reference "
@@ -67,7 +91,7 @@ void write(const std::filesystem::path& path, const Options& options, double poi
         "# Method: quasi-static total-Lagrangian finite elements (Q2, {} elements on a quarter disc, "
         "volumetric energy at "
         "{} Gauss points), exact unilateral nodal contact. Made by tests/reference/single_grain.\n"
-        "# Mesh error: |F({})/F({}) - 1| <= {:.1e} for e >= 0.03 ({:.1e} at e = 0.01).\n"
+        "# Mesh error: |F({})/F({}) - 1| <= {:.1e} for e >= {:.2g} ({:.1e} at e = {}).\n"
         "# e wall displacement / radius; F wall force per unit thickness; Lc contact length, bracketed by "
         "Lc_lo and "
         "Lc_hi; area_ratio deformed / initial area;\n"
@@ -75,11 +99,9 @@ void write(const std::filesystem::path& path, const Options& options, double poi
         "minJ "
         "smallest det F; newton_its iterations.\n"
         "e,F,Lc,Lc_lo,Lc_hi,area_ratio,p_centre,p_max,halfwidth_x,W,minJ,newton_its\n",
-        poisson,
-        walls == Walls::four ? "four rigid walls closing isotropically"
-                             : "two rigid walls (diametral compression)",
-        3 * fine_n * fine_n, options.volume_points * options.volume_points, coarse_n, fine_n,
-        difference(coarse, fine, 2, fine.size()), difference(coarse, fine, 0, 1));
+        poisson, closing.text, 3 * fine_n * fine_n, options.volume_points * options.volume_points, coarse_n,
+        fine_n, difference(coarse, fine, 2, common), fine[2].wall_displacement,
+        difference(coarse, fine, 0, 1), fine[0].wall_displacement);
     for (const GrainState& s : fine)
         out << fmt::format(
             "{:.6g},{:.10g},{:.8g},{:.8g},{:.8g},{:.10g},{:.8g},{:.8g},{:.8g},{:.10g},{:.4f},{}\n",
@@ -103,10 +125,12 @@ int main(int argc, char** argv) {
     app.add_option("--volume-points", options.volume_points, "Gauss points a side for the volumetric energy")
         ->check(CLI::IsMember({2, 3}));
     app.add_option("--poisson", options.poisson, "Poisson's ratios")->check(CLI::Range(0.0, 0.4999));
-    app.add_option("--walls", options.walls, "four, two or both")->check(CLI::IsMember({"four", "two"}));
+    app.add_option("--walls", options.walls, "two, four, six, eight")
+        ->check(CLI::IsMember({"two", "four", "six", "eight"}));
     CLI11_PARSE(app, argc, argv);
     try {
-        for (const std::string& walls : options.walls)
+        for (const std::string& walls : options.walls) {
+            const auto closing = std::ranges::find(closings, walls, &Closing::name);
             for (const double poisson : options.poisson) {
                 const auto path = std::filesystem::path(options.folder) /
                                   fmt::format("grain_{}wall_nu{:.6g}.csv", walls, poisson);
@@ -114,10 +138,11 @@ int main(int argc, char** argv) {
                     fmt::print("{} kept\n", path.string());
                     continue;
                 }
-                write(path, options, poisson, walls == "four" ? Walls::four : Walls::two);
+                write(path, options, poisson, *closing);
                 fmt::print("{} written\n", path.string());
                 std::fflush(stdout);
             }
+        }
     } catch (const std::exception& error) {
         fmt::print(stderr, "single_grain_reference: {}\n", error.what());
         return 1;

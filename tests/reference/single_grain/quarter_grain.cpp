@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace softgrain::reference {
 namespace {
@@ -27,7 +28,10 @@ Gauss gauss(int order) {
 
 QuarterGrain::QuarterGrain(double radius, int elements_per_side, const Material& material, Walls walls,
                            int volume_points)
-    : radius_(radius), mesh_(quarter_disc(radius, elements_per_side)), material_(material), walls_(walls) {
+    : radius_(radius),
+      mesh_(quarter_disc(radius, elements_per_side)),
+      material_(material),
+      measured_axis_(walls == Walls::two || walls == Walls::four ? 1 : 0) {
     const auto dofs = 2 * mesh_.nodes.size();
     constraint_.assign(dofs, Constraint::free);
     for (const int node : mesh_.on_x_axis) constraint_[2 * node + 1] = Constraint::symmetry;
@@ -35,8 +39,34 @@ QuarterGrain::QuarterGrain(double radius, int elements_per_side, const Material&
     displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs));
     force_ = displacement_;
     tangent_.resize(displacement_.size(), displacement_.size());
+    place_walls(walls);
     place_points(3, true, volume_points == 3);
     if (volume_points == 2) place_points(2, false, true);
+}
+
+/// Nodes that an oblique wall may touch get its normal and tangent as frame.
+void QuarterGrain::place_walls(Walls walls) {
+    frame_.assign(mesh_.nodes.size(), Mat2::Identity());
+    const bool oblique = walls == Walls::six || walls == Walls::eight;
+    const double turn = 2.0 * std::numbers::pi / static_cast<int>(walls);
+    for (const int node : mesh_.outline) {
+        if (!oblique) {
+            if (walls == Walls::four) facing_a_wall_.push_back(2 * node);
+            facing_a_wall_.push_back(2 * node + 1);
+            continue;
+        }
+        const Vec2& at = mesh_.nodes[node];
+        const double nearest = turn * std::round(std::atan2(at.y(), at.x()) / turn);
+        if (nearest < 0.5 * turn) {
+            facing_a_wall_.push_back(2 * node);
+        } else if (std::abs(nearest - 0.5 * std::numbers::pi) < 1e-9) {
+            facing_a_wall_.push_back(2 * node + 1);
+        } else if (constraint_[2 * node] == Constraint::free) {
+            const double c = std::cos(nearest), s = std::sin(nearest);
+            frame_[node] << c, -s, s, c;
+            facing_a_wall_.push_back(2 * node);
+        }
+    }
 }
 
 void QuarterGrain::place_points(int order, bool shape, bool volume) {
@@ -62,8 +92,8 @@ Tensor QuarterGrain::deformation(const Point& point) const {
     const Element& element = mesh_.elements[point.element];
     for (int a = 0; a < 9; ++a) {
         const double gx = point.gradient(a, 0), gy = point.gradient(a, 1);
-        const double ux = displacement_[2 * element[a]], uy = displacement_[2 * element[a] + 1];
-        F += Tensor{ux * gx, ux * gy, uy * gx, uy * gy};
+        const Vec2 u = frame_[element[a]] * displacement_.segment<2>(2 * element[a]);
+        F += Tensor{u.x() * gx, u.x() * gy, u.y() * gx, u.y() * gy};
     }
     return F;
 }
@@ -82,9 +112,12 @@ bool QuarterGrain::assemble(bool tangent) {
             r.stress += v.stress;
             r.tangent += v.tangent;
         }
-        Eigen::Matrix<double, 4, 18> B = Eigen::Matrix<double, 4, 18>::Zero();  // dF by displacements
+        Eigen::Matrix<double, 4, 18> B;  // dF by displacements
         for (int a = 0; a < 9; ++a)
-            for (int c = 0; c < 2; ++c) B.block<2, 1>(2 * c, 2 * a + c) = point.gradient.row(a).transpose();
+            for (int c = 0; c < 2; ++c)
+                for (int along = 0; along < 2; ++along)
+                    B.block<2, 1>(2 * c, 2 * a + along) = frame_[mesh_.elements[point.element][a]](c, along) *
+                                                          point.gradient.row(a).transpose();
         const Eigen::Matrix<double, 18, 1> f = point.weight * (B.transpose() * r.stress);
         const Element& element = mesh_.elements[point.element];
         for (int k = 0; k < 18; ++k) force_[2 * element[k / 2] + k % 2] += f[k];
@@ -108,21 +141,24 @@ bool QuarterGrain::assemble(bool tangent) {
     return true;
 }
 
+/// Undeformed position along a degree of freedom.
+double QuarterGrain::reference(Eigen::Index dof) const {
+    return frame_[dof / 2].col(dof % 2).dot(mesh_.nodes[dof / 2]);
+}
+
 /// Releases pulled nodes, catches those beyond the wall; returns whether anything changed.
 bool QuarterGrain::update_contacts(double limit) {
     bool changed = false;
-    for (const int node : mesh_.outline)
-        for (int axis = walls_ == Walls::four ? 0 : 1; axis < 2; ++axis) {
-            const int dof = 2 * node + axis;
-            const double gap = limit - mesh_.nodes[node][axis] - displacement_[dof];
-            if (constraint_[dof] == Constraint::wall && force_[dof] > 0.0) {
-                constraint_[dof] = Constraint::free;
-                changed = true;
-            } else if (constraint_[dof] == Constraint::free && gap < 0.0) {
-                constraint_[dof] = Constraint::wall;
-                changed = true;
-            }
+    for (const int dof : facing_a_wall_) {
+        const double gap = limit - reference(dof) - displacement_[dof];
+        if (constraint_[dof] == Constraint::wall && force_[dof] > 0.0) {
+            constraint_[dof] = Constraint::free;
+            changed = true;
+        } else if (constraint_[dof] == Constraint::free && gap < 0.0) {
+            constraint_[dof] = Constraint::wall;
+            changed = true;
         }
+    }
     return changed;
 }
 
@@ -131,8 +167,7 @@ bool QuarterGrain::solve(double limit) {
     const auto dofs = displacement_.size();
     Eigen::VectorXd given = Eigen::VectorXd::Zero(dofs);
     for (Eigen::Index k = 0; k < dofs; ++k)
-        if (constraint_[k] == Constraint::wall)
-            given[k] = limit - mesh_.nodes[k / 2][k % 2] - displacement_[k];
+        if (constraint_[k] == Constraint::wall) given[k] = limit - reference(k) - displacement_[k];
     Eigen::VectorXd right = -force_ - tangent_.selfadjointView<Eigen::Lower>() * given;
     for (Eigen::Index column = 0; column < dofs; ++column)
         for (Eigen::SparseMatrix<double>::InnerIterator entry(tangent_, column); entry; ++entry)
@@ -161,8 +196,7 @@ std::optional<GrainState> QuarterGrain::press(double e) {
         for (Eigen::Index k = 0; k < force_.size(); ++k) {
             if (constraint_[k] == Constraint::free) unbalanced = std::max(unbalanced, std::abs(force_[k]));
             if (constraint_[k] == Constraint::wall)
-                misplaced =
-                    std::max(misplaced, std::abs(limit - mesh_.nodes[k / 2][k % 2] - displacement_[k]));
+                misplaced = std::max(misplaced, std::abs(limit - reference(k) - displacement_[k]));
         }
         if (!changed && unbalanced < tolerance && misplaced < 1e-12 * radius_)
             return measure(e, iteration - 1);
@@ -192,35 +226,36 @@ GrainState QuarterGrain::measure(double e, int iterations) const {
     }
     s.area_ratio = area / first_area;
     const auto position = [&](int node, int axis) {
-        return mesh_.nodes[node][axis] + displacement_[2 * node + axis];
+        return mesh_.nodes[node][axis] + frame_[node].row(axis).dot(displacement_.segment<2>(2 * node));
     };
     for (const int node : mesh_.outline) s.half_width = std::max(s.half_width, position(node, 0));
 
-    // Contact on the wall across y, from its centre outwards. A constant pressure p gives the corner `a` of
-    // the edge (a, m, b) the force p (4 m - 3 a - b) / 6.
-    const auto share = [&](int corner, int direction) {
-        const double a = position(mesh_.outline[corner], 0),
-                     m = position(mesh_.outline[corner + direction], 0),
-                     b = position(mesh_.outline[corner + 2 * direction], 0);
+    // Contact from its centre outwards. A constant pressure p gives the corner `a` of the edge (a, m, b) the
+    // force p (4 m - 3 a - b) / 6.
+    std::vector<int> nodes = mesh_.outline;
+    if (measured_axis_ == 1) std::reverse(nodes.begin(), nodes.end());
+    const int along = 1 - measured_axis_, last = static_cast<int>(nodes.size()) - 1;
+    const auto share = [&](int corner, int step) {
+        const double a = position(nodes[corner], along), m = position(nodes[corner + step], along),
+                     b = position(nodes[corner + 2 * step], along);
         return std::abs(4.0 * m - 3.0 * a - b) / 6.0;
     };
-    const int centre = static_cast<int>(mesh_.outline.size()) - 1;
     double edge_at = 0.0, edge_squared = 0.0;  // two last corners: pressure^2 falls linearly to the edge
     double last_at = 0.0, last_squared = 0.0;
-    for (int k = centre; k >= 0; --k) {
-        const int node = mesh_.outline[k], dof = 2 * node + 1;
-        if (constraint_[dof] != Constraint::wall) {
-            s.contact_length_high = 2.0 * position(node, 0);
+    for (int k = 0; k <= last; ++k) {
+        const int dof = 2 * nodes[k] + measured_axis_;
+        if (constraint_[dof] != Constraint::wall || frame_[nodes[k]] != Mat2::Identity()) {
+            s.contact_length_high = 2.0 * position(nodes[k], along);
             break;
         }
         s.force += -2.0 * force_[dof];
-        s.contact_length_low = 2.0 * position(node, 0);
-        if (k % 2 != 0 || k == 0) continue;
-        const double pressure = -force_[dof] / (share(k, -1) + (k == centre ? 0.0 : share(k, 1)));
-        if (k == centre) s.pressure_centre = pressure;
+        s.contact_length_low = 2.0 * position(nodes[k], along);
+        if (k % 2 != 0 || k == last) continue;
+        const double pressure = -force_[dof] / (share(k, 1) + (k == 0 ? 0.0 : share(k, -1)));
+        if (k == 0) s.pressure_centre = pressure;
         s.pressure_max = std::max(s.pressure_max, pressure);
         last_at = edge_at, last_squared = edge_squared;
-        edge_at = position(node, 0), edge_squared = pressure * pressure;
+        edge_at = position(nodes[k], along), edge_squared = pressure * pressure;
     }
     const double fall = last_squared - edge_squared;
     const double edge = fall > 0.0 ? edge_at + edge_squared * (edge_at - last_at) / fall : edge_at;

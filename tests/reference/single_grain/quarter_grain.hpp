@@ -11,7 +11,8 @@
 
 namespace softgrain::reference {
 
-enum class Walls { two, four };
+/// Two walls across y, or 4, 6 or 8 that make a regular polygon, one of them across x.
+enum class Walls { two = 2, four = 4, six = 6, eight = 8 };
 
 /// One point of the curve; forces and energies are those of the whole disc, per unit thickness.
 struct GrainState {
@@ -33,7 +34,7 @@ class QuarterGrain {
     QuarterGrain(double radius, int elements_per_side, const Material& material, Walls walls,
                  int volume_points);
 
-    /// Moves the walls to displacement e and finds equilibrium; std::nullopt (state unchanged) if Newton
+    /// Moves all walls to displacement e and finds equilibrium; std::nullopt (state unchanged) if Newton
     /// fails.
     std::optional<GrainState> press(double e);
 
@@ -46,10 +47,12 @@ class QuarterGrain {
     };
     enum class Constraint : char { free, symmetry, wall };
 
+    void place_walls(Walls walls);
     void place_points(int order, bool shape, bool volume);
     Tensor deformation(const Point& point) const;
     /// Internal forces, and the tangent if `tangent`; false if a det F <= 0.
     bool assemble(bool tangent);
+    double reference(Eigen::Index dof) const;
     bool update_contacts(double limit);
     bool solve(double limit);
     GrainState measure(double e, int iterations) const;
@@ -57,7 +60,9 @@ class QuarterGrain {
     double radius_;
     Mesh mesh_;
     Material material_;
-    Walls walls_;
+    int measured_axis_;               ///< of the wall whose contact is measured
+    std::vector<Mat2> frame_;         ///< per node: columns are the directions of its degrees of freedom
+    std::vector<int> facing_a_wall_;  ///< degrees of freedom along the normal of a wall
     std::vector<Point> points_;
     std::vector<Constraint> constraint_;  ///< per degree of freedom
     Eigen::VectorXd displacement_, force_;

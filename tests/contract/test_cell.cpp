@@ -1,0 +1,150 @@
+// What every method with a periodic cell must keep: nothing depends on where the edges of the cell are drawn.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/observables/stress.hpp"
+#include "tests/contract/scenes.hpp"
+
+namespace softgrain {
+namespace {
+
+using namespace testing;
+
+std::vector<Bands> with_cell(bool has_one) {
+    std::vector<Bands> some;
+    for (const Bands& bands : all_bands())
+        if ((bands.cell > 0.0) == has_one) some.push_back(bands);
+    return some;
+}
+
+class CellContract : public ::testing::TestWithParam<Bands> {
+  protected:
+    std::unique_ptr<Solver> solver_for(const Packing& packing) const {
+        return make(GetParam(), scenario_of(GetParam().method), packing);
+    }
+    double slow(const Solver& solver) const {
+        return GetParam().loading_time / std::sqrt(solver.stress_scale());
+    }
+    /// Mean stress tensors while the cell is compressed, then sheared.
+    std::vector<Mat2> stresses(const Packing& packing) const {
+        const auto solver = solver_for(packing);
+        std::vector<Mat2> all;
+        Mat2 impulse = Mat2::Zero();
+        const auto add = [&](const Box&, double dt) { impulse += solver->cell_stress() * dt; };
+        Box box = packing.box;
+        for (const double shear : {0.0, 0.02, 0.02}) {
+            const double time = 0.2 * slow(*solver);
+            box = deform(*solver, box, shear == 0.0 ? 0.02 : 0.0, shear, time, add);
+            all.emplace_back(impulse / time);
+            impulse.setZero();
+        }
+        return all;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, CellContract, ::testing::ValuesIn(with_cell(true)),
+                         [](const auto& instance) { return instance.param.method; });
+
+TEST_P(CellContract, TheEdgesDoNotMatter) {
+    const Packing packing = periodic_cell(30);
+    const auto here = stresses(packing);
+    ASSERT_GT(here.back().trace(), 0.0);
+    Packing moved = packing;
+    for (Vec2& c : moved.center) c = moved.box.wrapped(c + Vec2{3.3, 5.1});
+    Packing flipped = packing;
+    flipped.box.tilt = 2.0 * flipped.box.width();
+    for (const Packing& other : {moved, flipped}) {
+        const auto there = stresses(other);
+        for (std::size_t k = 0; k < here.size(); ++k)
+            EXPECT_LE((there[k] - here[k]).norm(), GetParam().cell * here.back().norm()) << "part " << k;
+    }
+}
+
+TEST_P(CellContract, TheStressIsThatOfTheContactsSeen) {
+    const Packing packing = periodic_cell(30);
+    const auto solver = solver_for(packing);
+    deform(*solver, packing.box, 0.02, 0.02, 0.2 * slow(*solver));
+    const GrainView view = solver->view(Need::all);
+    EXPECT_GT(solver->cell_stress().trace(), 0.0) << "compression is positive";
+    EXPECT_LE((love_weber_stress(view) - solver->cell_stress()).norm(), 1e-9 * solver->cell_stress().norm());
+    EXPECT_LE(view.covered_area, view.box.area());
+    for (const GrainContact& c : view.contacts) {
+        ASSERT_FALSE(c.with_wall());
+        const Vec2 from_i = c.point - view.centroid[static_cast<std::size_t>(c.i)];
+        EXPECT_LT(from_i.norm(), branch(view, c).norm()) << "the point lies near grain i";
+        EXPECT_GT(c.normal.dot(branch(view, c)), 0.0);
+    }
+    for (const Vec2& f : view.wall_force) EXPECT_EQ(f.norm(), 0.0) << "there are no walls";
+}
+
+TEST_P(CellContract, TheEnergyLedgerCloses) {
+    const Packing packing = periodic_cell(30);
+    const auto solver = solver_for(packing);
+    const EnergyLedger before = solver->view(Need::base).energy;
+    const Box box = deform(*solver, packing.box, 0.02, 0.0, 0.3 * slow(*solver));
+    deform(*solver, box, 0.0, 0.05, 0.5 * slow(*solver));
+    const EnergyLedger after = solver->view(Need::base).energy;
+    const double residual = after.external_work + before.kinetic + before.elastic - after.kinetic -
+                            after.elastic - after.dissipated();
+    ASSERT_GT(after.external_work, 0.0);
+    EXPECT_LE(std::abs(residual), std::max(GetParam().ledger, 1e-6) * after.external_work);
+}
+
+TEST_P(CellContract, ARestartedRunHasTheSameBits) {
+    const Packing packing = periodic_cell(30);
+    const auto straight = solver_for(packing);
+    const double time = 0.1 * slow(*straight);
+    // Far enough that the tilt has been reduced.
+    Box box = deform(*straight, packing.box, 0.01, 0.7, time);
+    Checkpoint middle;
+    straight->save(middle);
+    const auto restarted = solver_for(packing);
+    restarted->load(middle);
+    Checkpoint again;
+    restarted->save(again);
+    EXPECT_EQ(again.numbers, middle.numbers) << "what was loaded is not what was saved";
+    EXPECT_EQ(again.integers, middle.integers);
+    deform(*straight, box, 0.01, -0.1, time);
+    deform(*restarted, box, 0.01, -0.1, time);
+    Checkpoint a, b;
+    straight->save(a);
+    restarted->save(b);
+    EXPECT_EQ(a.numbers, b.numbers);
+    EXPECT_EQ(a.integers, b.integers);
+    EXPECT_EQ(straight->stable_time_step(), restarted->stable_time_step());
+}
+
+TEST_P(CellContract, TwoThreadsGiveTheBitsOfOne) {
+    Packing packing = square_lattice(36);
+    packing.box.periodic = true;
+    Checkpoint state[2];
+    for (const int threads : {1, 2}) {
+        omp_set_num_threads(threads);
+        const auto solver = solver_for(packing);
+        deform(*solver, packing.box, 0.02, 0.01, 30.0 * solver->stable_time_step());
+        solver->view(Need::all);
+        solver->save(state[threads - 1]);
+    }
+    EXPECT_EQ(state[0].numbers, state[1].numbers);
+    EXPECT_EQ(state[0].integers, state[1].integers);
+}
+
+/// Uses of one feature each, of which bpm has none.
+TEST(Refusal, OfWhatAggregatesDoNotHave) {
+    const Method& bpm = find_method("bpm");
+    const Packing packing = four_grains();
+    Packing periodic = packing, ellipses = packing;
+    periodic.box.periodic = true;
+    ellipses.aspect_ratio = {1.0, 2.0, 1.0, 1.0};
+    ellipses.angle = {0.0, 0.0, 0.0, 0.0};
+    EXPECT_THROW(bpm.make(scenario_of("bpm"), periodic), InputError);
+    EXPECT_THROW(bpm.make(scenario_of("bpm"), ellipses), InputError);
+    for (const char* extra : {"[material]\nwall_friction = 0.1\n", "[material]\ncohesion = 0.1\n",
+                              "[material]\nyield_stress = 0.1\n", "[[grain_class]]\n[[grain_class]]\n"})
+        EXPECT_THROW(bpm.make(scenario_of("bpm", extra), packing), InputError) << extra;
+}
+
+}  // namespace
+}  // namespace softgrain
