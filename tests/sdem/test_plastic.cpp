@@ -105,8 +105,7 @@ TEST(Plasticity, WorkOfShearIsStoredOrLost) {
         P_before = P;
     }
     const EnergyLedger e = probe.energy();
-    // Implicit flow: an error of first order in the step, here 0.001 against 0.3.
-    EXPECT_NEAR(e.elastic + e.plastic, work, 5e-3 * work);
+    EXPECT_NEAR(e.elastic + e.plastic, work, 2e-4 * work);  // the square of the step, 0.001 against 0.09
     EXPECT_GT(e.plastic, 0.5 * work);
 }
 
@@ -162,7 +161,7 @@ TEST(Plasticity, ARingingGrainLosesWhatItsLedgerSays) {
         RecordProperty(fmt::format("residual_{}", dt), fmt::format("{:.1e}", worst));
     }
     EXPECT_LT(residuals[0], 2e-2);
-    EXPECT_LT(residuals[2], 0.4 * residuals[0]);  // first order at least
+    EXPECT_LT(residuals[2], 0.12 * residuals[0]);  // second order
 }
 
 TEST(Plasticity, AGrainCrushedBetweenTwoWallsStaysFlat) {
@@ -181,7 +180,7 @@ TEST(Plasticity, AGrainCrushedBetweenTwoWallsStaysFlat) {
         return std::pair{F(0, 0) / F(1, 1), solver->view(Need::base).energy};
     };
     const auto soft = flattened(s);
-    EXPECT_GT(soft.first, 1.05);
+    EXPECT_GT(soft.first, 1.02);
     EXPECT_GT(soft.second.plastic, 0.3 * soft.second.external_work);
     EXPECT_LT(std::abs(test::residual(soft.second)), 2e-2 * soft.second.external_work);
     s.material.yield_stress = 10.0;
