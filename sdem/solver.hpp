@@ -8,6 +8,7 @@
 #include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
 #include "sdem/grain_motion.hpp"
+#include "sdem/pressures.hpp"
 #include "sdem/sliding.hpp"
 
 namespace softgrain::sdem {
