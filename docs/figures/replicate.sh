@@ -22,12 +22,13 @@ done
 
 laws="lens_potential mollon2022"
 seeds="1 2 3 4 5"
-coarse=()
+coarse=() fast=1e-3 # inertial number of all figures
 figures="figure_07 figure_08 figure_09 figure_10 figure_11 figure_12 compression rates drivers"
 document=docs/replicability.md
 if $quick; then
     seeds="1 2"
-    coarse=(packing.count=200 loading.0.inertial_number=3e-3)
+    fast=3e-3
+    coarse=(packing.count=200 loading.0.inertial_number=$fast)
     out=${out:-results/replicate_quick}
 else
     out=${out:-results/replicate}

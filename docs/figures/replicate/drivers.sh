@@ -26,7 +26,7 @@ make_drivers() {
                 case $name in
                 quasi*) what="quasi_static" ;;
                 slow*) what="explicit, I = 3e-4" ;;
-                *) what="explicit, I = 1e-3 (to phi 0.99)" ;;
+                *) what="explicit, I = $fast (to phi 0.99)" ;;
                 esac
                 printf "| %s | %s | %s | %s |" $nu "$what" "$(number %.1f "$(result $name cpu_time)")" "$(number %.1f "$(result $name wall_time)")"
                 for phi in 0.850 0.860 0.880 0.900 0.920 0.940 0.960; do

@@ -11,7 +11,7 @@ plan_rates() {
 make_rates() {
     local sample nu phi
     {
-        echo "| stress at I = 1e-3 / stress at 3e-4 - 1 | phi = 0.85 | 0.86 | 0.87 | 0.88 | 0.90 | 0.92 | 0.94 | 0.96 |"
+        echo "| stress at I = $fast / stress at 3e-4 - 1 | phi = 0.85 | 0.86 | 0.87 | 0.88 | 0.90 | 0.92 | 0.94 | 0.96 |"
         echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|"
         for sample in a b; do for nu in 0.3 0.5; do
             band packing_fraction mean_stress $phis slow-$sample-$nu >"$made/slow_$sample.csv"
