@@ -86,5 +86,5 @@ table() {
 row() {
     local links="" picture
     for picture in "${@:5}"; do links+="${links:+, }[$picture](figures/mollon2022/$picture)"; done
-    echo "| $1 | \`$2\` | $3 | $4 | $links |" >>"$out/overview"
+    echo "| $1 | $2 | $3 | $4 | $links |" >>"$out/overview"
 }
