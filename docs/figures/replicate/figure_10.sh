@@ -64,8 +64,10 @@ make_figure_10() {
 
 z_at() { number %.2f "$(value "$made/figure_10_$1_$2_lens_potential.csv" "$3" coordination_number_no_rattlers)"; }
 phi_apart() {
-    awk -v printed="$(value "$made/figure_10_a_0.3_mollon2022.csv" "$1" packing_fraction)" \
-        -v lens="$(value "$made/figure_10_a_0.3_lens_potential.csv" "$1" packing_fraction)" 'BEGIN { printf "%+.3f", printed - lens }'
+    local printed lens
+    printed=$(value "$made/figure_10_a_0.3_mollon2022.csv" "$1" packing_fraction)
+    lens=$(value "$made/figure_10_a_0.3_lens_potential.csv" "$1" packing_fraction)
+    if [ -n "$printed" ] && [ -n "$lens" ]; then awk -v a="$printed" -v b="$lens" 'BEGIN { printf "%+.3f", a - b }'; else printf -- "-"; fi
 }
 
 # SAMPLE Z PHI

@@ -34,7 +34,7 @@ band() {
         awk -v x="$x" -v y="$y" -v grid="$grid" -f $here/at.awk "$history" >"$table"
         files+=("$table")
     done
-    awk -f $here/band.awk "${files[@]}"
+    awk -f $here/band.awk "${files[@]}" </dev/null
 }
 
 # value FILE X COLUMN: of the row whose first column is X; empty if there is none.
