@@ -260,6 +260,31 @@ TEST(Watchdog, CatchesAStepAboveTheLimit) {
         }
 }
 
+TEST(HardCases, AGrainThatComesApartEndsTheRun) {
+    // Not an error of the input, even where such a grain no longer fits into a periodic cell.
+    for (bool periodic : {false, true}) {
+        Packing packing = test::packing24();
+        if (periodic)
+            packing.box.periodic = true;
+        else
+            packing = test::packing_of(test::far_away(), std::vector<Vec2>(8, Vec2::Zero()),
+                                       std::vector<double>(8, 1.0));
+        for (std::size_t g = 0; !periodic && g < 8; ++g)
+            packing.center[g].x() = 20.0 * (static_cast<double>(g) - 4.0);
+        auto solver = test::solver_for(undamped(), packing);
+        test::State state = test::state_of(*solver);
+        state.F_rate[7] << 20.0, 0.0, 0.0, 20.0;
+        test::set_state(*solver, state);
+        try {
+            for (int k = 0; k < 20; ++k) solver->advance(test::still(*solver), periodic ? 0.1 : 0.25);
+            FAIL() << "a grain grew without end";
+        } catch (const DivergedError& e) {
+            EXPECT_EQ(e.grain, 7);
+            EXPECT_EQ(e.quantity, "F");
+        }
+    }
+}
+
 TEST(HardCases, AMillionStepsAtRestChangeNothing) {
     const Packing packing =
         test::packing_of(Box{{0.0, 3.9, 0.0, 1.95}}, {{0.98, 0.97}, {2.92, 0.98}}, {1.0, 1.0});
