@@ -9,8 +9,8 @@ struct alignas(64) Contact {
     double chord_x, chord_y;  ///< L n: chord length times unit normal out of i [m]
     double arm_x, arm_y;      ///< from the centre of i to the mid-point of the chord [m]
     double cap_i, cap_j;      ///< S, area of each ellipse beyond the chord [m^2]
-    double q;  ///< normal force per chord length without the grains' pressure [N/m], compression positive
-    double q_damping;  ///< the same of the dashpot [N/m], before it is kept from pulling
+    double q;                 ///< elastic normal force per chord length [N/m], compression positive
+    double q_damping;         ///< the same of the dashpot [N/m], before it is kept from pulling
 
     bool touching() const { return cap_i > 0.0; }
     double lens() const { return cap_i + cap_j; }

@@ -42,7 +42,7 @@ void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
         if (in.law.contact_law == ContactLaw::lens_potential) {
             block.moment.xx[l] -= sums.pressed;
             block.moment.yy[l] -= sums.pressed;
-            block.pressure[l] = in.pressure[g];
+            block.pressure[l] = in.stress[g];
         } else {
             block.caps[l] = Mollon2022::cap_fraction(sums.caps, covered_outline(in.forces.contacts.list, g),
                                                      block.area[l]);
@@ -85,30 +85,6 @@ StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
 }
 
 }  // namespace
-
-std::size_t find_pressures(const Grains& grains, const ContactView& contacts, GrainLaw law,
-                           Pressures& pressures, std::size_t begin, std::size_t end) {
-    PressureBlock block;
-    block.count = static_cast<int>(end - begin);
-    for (std::size_t g = begin; g < end; ++g) {
-        const auto l = static_cast<int>(g - begin);
-        const GrainMaterial& material = grains.material_of(g);
-        block.det[l] = grains.grain[g].F.det();
-        block.given_way[l] = given_way(contacts, grains.grain[g], g);
-        block.mu[l] = material.mu;
-        block.kappa[l] = material.kappa;
-        block.bulge[l] = material.bulge;
-    }
-    find_pressures(block, law);
-    std::size_t bad = grains.size();
-    for (std::size_t g = begin; g < end; ++g) {
-        const auto l = static_cast<int>(g - begin);
-        pressures.pressure[g] = block.pressure[l];
-        pressures.push[g] = block.push[l];
-        if (!(block.area_ratio[l] > smallest_area_ratio)) bad = std::min(bad, g);
-    }
-    return bad;
-}
 
 StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
                      double drift_time, std::size_t begin, std::size_t end, std::size_t& bad) {

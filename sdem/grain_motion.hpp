@@ -36,20 +36,9 @@ struct StepWork {
     }
 };
 
-/// Pressure of grains under their contacts, for laws that have a potential.
-struct Pressures {
-    std::vector<double> pressure;  ///< [n] p [N/m]
-    std::vector<double> push;      ///< [n] p G' [N/m]
-};
-
-/// Fills the pressures of the grains [begin, end); the first grain whose area ratio Je is not above 0.04, or
-/// n.
-std::size_t find_pressures(const Grains& grains, const ContactView& contacts, GrainLaw law,
-                           Pressures& pressures, std::size_t begin, std::size_t end);
-
 struct MotionInput {
     ForceSource forces;
-    std::span<const double> pressure;  ///< [n], empty for mollon2022
+    std::span<const double> stress;  ///< [n] P of Pressures, empty for mollon2022
     MotionLaw law;
     WallMotion flow;  ///< of a periodic cell: works are done by the motion against it
 };

@@ -53,31 +53,8 @@ struct ContactView {
 /// How a contact's forces are put together.
 struct ForceSource {
     ContactView contacts;
-    /// [n] p G' of each grain: its pressure on a contact's share of the overlap [N/m]; empty if the law has
-    /// none.
-    std::span<const double> push;
     bool sliding;  ///< tangential forces are to be added
 
-    /// Elastic force per chord length of pair k or wall pair w [N/m].
-    double elastic(std::size_t k) const {
-        const double q = contacts.list.pair_contact[k].q;
-        if (push.empty()) return q;
-        const Pair& pair = contacts.list.pairs()[k];
-        const double share = contacts.list.share[k];
-        return q + share * push[static_cast<std::size_t>(pair.i)] +
-               (1.0 - share) * push[static_cast<std::size_t>(pair.j)];
-    }
-    double elastic_at_wall(std::size_t w) const {
-        const double q = contacts.list.wall_contact[w].q;
-        return push.empty() ? q : q + push[static_cast<std::size_t>(contacts.list.wall_pairs()[w].grain)];
-    }
-    /// The same for the contact of grain g.
-    double elastic(const Side& side, std::size_t g) const {
-        if (push.empty()) return side.contact.q;
-        if (side.wall()) return side.contact.q + push[g];
-        return side.contact.q + side.share * push[g] +
-               (1.0 - side.share) * push[static_cast<std::size_t>(side.other)];
-    }
     /// Force on j along the turned chord, per chord length [N/m].
     double tangential(const Side& side) const {
         if (!sliding) return 0.0;
@@ -101,7 +78,7 @@ inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
     GrainSums s;
     from.contacts.each_side_of(g, [&](const Side& side) {
         const Contact& c = side.contact;
-        const double q = from.elastic(side, g), dashpot = damping_without_pull(q, c.q_damping);
+        const double q = c.q, dashpot = damping_without_pull(q, c.q_damping);
         const double normal = side.sign() * (q + dashpot), along = side.sign() * from.tangential(side);
         const double damping = side.sign() * dashpot;
         const double fx = normal * c.chord_x - along * c.chord_y, fy = normal * c.chord_y + along * c.chord_x;
@@ -122,18 +99,6 @@ inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
         s.caps += side.cap();
     });
     return s;
-}
-
-/// T = sum of the overlaps that grain g gives way to / its reference area.
-inline double given_way(const ContactView& contacts, const Grain& grain, std::size_t g) {
-    const ContactList& list = contacts.list;
-    double sum = 0.0;
-    for (std::size_t w = list.wall_first(g); w < list.wall_first(g + 1); ++w)
-        sum += list.wall_contact[w].lens();
-    for (std::size_t k = list.first(g); k < list.first(g + 1); ++k)
-        sum += list.share[k] * list.pair_contact[k].lens();
-    for (const std::uint32_t k : list.second(g)) sum += (1.0 - list.share[k]) * list.pair_contact[k].lens();
-    return sum / grain.reference_area();
 }
 
 /// sum psi / pi: share of grain g's outline that contacts cover, for laws that use it.

@@ -27,7 +27,7 @@ struct GrainMaterial {
     double density;           ///< [kg/m^2]
     double mu, kappa;         ///< Mollon 2022, Eq. 45, 46 [N/m]
     double plane_E;           ///< E / (1 - nu^2) [N/m]
-    double bulge;             ///< chi of the lens potential
+    double bulge;             ///< gamma (1-2nu)/(1-nu) of the lens potential
     double shape_damping;     ///< gamma of Eq. 62-64 times R [m/s]
     double dilation_inertia;  ///< inertia added to changes of area, in units of the grain's own
     double yield;             ///< shear stress at which the grain flows [N/m]; infinite if it does not

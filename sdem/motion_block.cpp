@@ -204,31 +204,7 @@ SOFTGRAIN_CLONES void find_reaches(MotionBlock& block) {
     }
 }
 
-SOFTGRAIN_CLONES void press_neo_hookean(PressureBlock& b) {
-#pragma omp simd
-    for (int l = 0; l < b.count; ++l) {
-        const auto inflation = LensPotential::inflation(b.given_way[l], b.bulge[l]);
-        b.area_ratio[l] = b.det[l] - inflation.G;
-        b.pressure[l] = LensPotential::pressure(b.area_ratio[l], b.mu[l], b.kappa[l]);
-        b.push[l] = b.pressure[l] * inflation.slope;
-    }
-}
-
-SOFTGRAIN_CLONES void press_linear(PressureBlock& b) {
-#pragma omp simd
-    for (int l = 0; l < b.count; ++l) {
-        const auto inflation = LensPotential::inflation(b.given_way[l], b.bulge[l]);
-        b.area_ratio[l] = b.det[l] - inflation.G;
-        b.pressure[l] = -b.kappa[l] * (b.area_ratio[l] - 1.0);
-        b.push[l] = b.pressure[l] * inflation.slope;
-    }
-}
-
 }  // namespace
-
-void find_pressures(PressureBlock& block, GrainLaw law) {
-    law == GrainLaw::neo_hookean ? press_neo_hookean(block) : press_linear(block);
-}
 
 void add_inner_stress(MotionBlock& block, const MotionLaw& law) {
     const bool neo = law.grain_law == GrainLaw::neo_hookean;

@@ -37,17 +37,6 @@ struct MotionBlock {
     alignas(64) Lane reach, moved, det, caps_before;
 };
 
-/// Pressure of up to 64 grains under their contacts, for laws that have a potential.
-struct PressureBlock {
-    using Lane = double[grains_per_block];
-    int count;
-    alignas(64) Lane det, given_way, mu, kappa, bulge;
-    alignas(64) Lane pressure;    ///< p [N/m]
-    alignas(64) Lane push;        ///< p G' [N/m]
-    alignas(64) Lane area_ratio;  ///< Je
-};
-
-void find_pressures(PressureBlock& block, GrainLaw law);
 /// Adds inner stress and shape damping to the moments; plastic grains flow.
 void add_inner_stress(MotionBlock& block, const MotionLaw& law);
 /// Velocities and rates after dt, what the kinematics allow of them, and the work done.

@@ -25,7 +25,6 @@ class Work {
         batch_.b[l] = in_.grains.grain[b];
         batch_.guess[l] = out_.guess[k];
         batch_.turn[l] = turned ? -1.0 : 1.0;
-        batch_.share_a[l] = turned ? 1.0 - in_.share[k] : in_.share[k];
         if (!in_.image.empty()) {
             const Vec2 offset = batch_.turn[l] * in_.motion.box.image(in_.image[k]);
             const Vec2 velocity = batch_.turn[l] * in_.motion.image_velocity(in_.image[k]);
@@ -69,8 +68,6 @@ class Work {
     void put_material(int l, std::size_t a, std::size_t b) {
         batch_.E_a[l] = in_.grains.material[a].E;
         batch_.E_b[l] = in_.grains.material[b].E;
-        batch_.plane_E_a[l] = in_.grains.material[a].plane_E;
-        batch_.plane_E_b[l] = in_.grains.material[b].plane_E;
     }
 
     /// The careful way, for a lane that the batch could not solve.

@@ -22,10 +22,9 @@ enum class Geometry : std::uint8_t {
 /// What the evaluation of pairs reads.
 struct PairInput {
     const Grains& grains;
-    std::span<const Pair> pair;     ///< [pairs]
-    std::span<const double> share;  ///< [pairs] of the overlap that i gives way to
-    std::span<const Image> image;   ///< [pairs] which image of j; empty without a periodic cell
-    WallMotion motion;              ///< of the cell, for the images
+    std::span<const Pair> pair;    ///< [pairs]
+    std::span<const Image> image;  ///< [pairs] which image of j; empty without a periodic cell
+    WallMotion motion;             ///< of the cell, for the images
     ContactLaw law;
     Geometry geometry;
     double contact_damping;

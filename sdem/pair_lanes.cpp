@@ -27,8 +27,6 @@ SOFTGRAIN_INLINE void unfold(PairLanes& batch) {
         c.b_xy[l] = b.b * b.F.xy;
         c.b_yx[l] = b.a * b.F.yx;
         c.b_yy[l] = b.b * b.F.yy;
-        batch.area_a[l] = std::numbers::pi * a.a * a.b;
-        batch.area_b[l] = std::numbers::pi * b.a * b.b;
         if constexpr (rates) {
             batch.dvx[l] = b.vx - a.vx;
             batch.dvy[l] = b.vy - a.vy;
@@ -105,17 +103,8 @@ SOFTGRAIN_INLINE void answer_each(PairLanes& batch, double damping) {
             slip = nx * wy - ny * wx;
             mass = batch.mass_a[l] * batch.mass_b[l] / (batch.mass_a[l] + batch.mass_b[l]);
         }
-        const double share_a = batch.share_a[l], share_b = 1.0 - share_a;
-        const double lens = c.cap_a[l] + c.cap_b[l];
         const double E_a = batch.E_a[l], E_b = batch.E_b[l];
-        const ContactInput input{length,
-                                 0.5 * c.depth[l],
-                                 0.5 * closing,
-                                 share_a * lens / batch.area_a[l],
-                                 share_b * lens / batch.area_b[l],
-                                 share_a * batch.plane_E_a[l],
-                                 share_b * batch.plane_E_b[l],
-                                 2.0 * E_a * E_b / (E_a + E_b),
+        const ContactInput input{length, 0.5 * c.depth[l], 0.5 * closing, 2.0 * E_a * E_b / (E_a + E_b),
                                  mass};
         const ContactAnswer answer = Law::contact(input, damping);
         const bool touching = c.sound[l] != 0.0, turned = batch.turn[l] < 0.0;

@@ -21,12 +21,10 @@ struct PairLanes {
     alignas(64) ChordGuess guess[capacity];
     alignas(64) Lane offset_x, offset_y, offset_vx, offset_vy;  // of the image of b, periodic cells only
     alignas(64) Lane turn;                                      // 1, or -1 if a is the pair's j
-    alignas(64) Lane share_a;                                   // share of the overlap that a gives way to
-    alignas(64) Lane E_a, E_b, plane_E_a, plane_E_b;
+    alignas(64) Lane E_a, E_b;
     ChordBatch chord;
     // Between two loops.
-    alignas(64) Lane dvx, dvy, a_rxx, a_rxy, a_ryx, a_ryy, b_rxx, b_rxy, b_ryx, b_ryy, mass_a, mass_b, area_a,
-        area_b;
+    alignas(64) Lane dvx, dvy, a_rxx, a_rxy, a_ryx, a_ryy, b_rxx, b_rxy, b_ryx, b_ryy, mass_a, mass_b;
     // Out.
     alignas(64) Contact contact[capacity];
     alignas(64) Opening opening[capacity];

@@ -14,7 +14,7 @@ namespace {
 constexpr int most_steps = 100000;
 constexpr int steps_between_limits = 50;
 /// Force out of balance that counts as rest where no contact carries any, in E R.
-constexpr double floating_force = 1e-9;
+constexpr double floating_force = 1e-6;
 
 }  // namespace
 
@@ -179,19 +179,18 @@ void QuasiStaticSolver::step(double keep, double turn, double dt) {
 }
 
 double QuasiStaticSolver::mean_contact_force() const {
-    const ForceSource source = forces();
     double sum = 0.0;
     int count = 0;
     for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
         const Contact& c = contacts_.pair_contact[k];
         if (!c.touching()) continue;
-        sum += std::abs(source.elastic(k)) * std::sqrt(c.length_squared());
+        sum += std::abs(c.q) * std::sqrt(c.length_squared());
         ++count;
     }
     for (std::size_t k = 0; k < contacts_.wall_pairs().size(); ++k) {
         const Contact& c = contacts_.wall_contact[k];
         if (!c.touching()) continue;
-        sum += std::abs(source.elastic_at_wall(k)) * std::sqrt(c.length_squared());
+        sum += std::abs(c.q) * std::sqrt(c.length_squared());
         ++count;
     }
     return count > 0 ? sum / count : 0.0;

@@ -59,14 +59,14 @@ SlidingWork grip(const SlidingLaw& law, const Gripping& how, Contact& c, Contact
 
 }  // namespace
 
-SlidingWork slide_pairs(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
-                        ContactList& list, double dt, std::size_t begin, std::size_t end) {
+SlidingWork slide_pairs(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt,
+                        std::size_t begin, std::size_t end) {
     SlidingWork sum;
     for (std::size_t k = begin; k < end; ++k) {
         const auto i = static_cast<std::size_t>(list.pairs()[k].i),
                    j = static_cast<std::size_t>(list.pairs()[k].j);
         Contact& c = list.pair_contact[k];
-        const double q = from.elastic(k);
+        const double q = c.q;
         const double E_i = grains.material_of(i).E, E_j = grains.material_of(j).E;
         const double area = std::min(grains.grain[i].reference_area(), grains.grain[j].reference_area());
         const Gripping how{q + damping_without_pull(q, c.q_damping), law.friction,
@@ -76,13 +76,12 @@ SlidingWork slide_pairs(const SlidingLaw& law, const ForceSource& from, const Gr
     return sum;
 }
 
-SlidingWork slide_walls(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
-                        ContactList& list, double dt) {
+SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt) {
     SlidingWork sum;
     for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
         const auto g = static_cast<std::size_t>(list.wall_pairs()[k].grain);
         Contact& c = list.wall_contact[k];
-        const double q = from.elastic_at_wall(k);
+        const double q = c.q;
         const Gripping how{q + damping_without_pull(q, c.q_damping), law.wall_friction,
                            law.stiffness * grains.material_of(g).E,
                            adhesion_per_area(law, grains.grain[g].reference_area())};

@@ -29,11 +29,10 @@ struct SlidingWork {
 
 /// Sets tangential forces and takes adhesion off the normal force of the pairs [begin, end). After the normal
 /// forces and pressures are known; dt is the length of the step just made, 0 to change no memory.
-SlidingWork slide_pairs(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
-                        ContactList& list, double dt, std::size_t begin, std::size_t end);
+SlidingWork slide_pairs(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt,
+                        std::size_t begin, std::size_t end);
 /// The same for all walls.
-SlidingWork slide_walls(const SlidingLaw& law, const ForceSource& from, const Grains& grains,
-                        ContactList& list, double dt);
+SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt);
 
 /// Adhesion that does not depend on the way, taken off the normal force per chord length before all else.
 /// Energy now in springs and adhesion [J].

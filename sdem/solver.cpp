@@ -32,8 +32,8 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
     place(packing);
     const std::size_t n = size();
     if (has_potential()) {
-        pressures_.pressure.assign(n, 0.0);
-        pressures_.push.assign(n, 0.0);
+        pressures_.stress.assign(n, 0.0);
+        pressures_.inflated.assign(n, Inflated{});
     }
     if (options_.motion.plastic) {
         memory_.plastic_xx.assign(n, 1.0);
@@ -83,11 +83,11 @@ void SoftDiscSolver::place(const Packing& packing) {
 }
 
 ForceSource SoftDiscSolver::forces() const {
-    return {contact_view(), pressures_.push, options_.sliding.slides()};
+    return {contact_view(), options_.sliding.slides()};
 }
 
 MotionInput SoftDiscSolver::motion_input() const {
-    return {forces(), pressures_.pressure, options_.motion, motion_};
+    return {forces(), pressures_.stress, options_.motion, motion_};
 }
 
 /// E, its mean over the grains' areas.
@@ -208,9 +208,9 @@ void SoftDiscSolver::limit_time_step(double dt) {
 void SoftDiscSolver::evaluate_all_pairs() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
-    const PairInput in{grains_,   contacts_.pairs(),           contacts_.share,   contacts_.images(),
-                       lattice,   options_.motion.contact_law, options_.geometry, options_.contact_damping,
-                       with_rates};
+    const PairInput in{
+        grains_,           contacts_.pairs(),        contacts_.images(), lattice, options_.motion.contact_law,
+        options_.geometry, options_.contact_damping, with_rates};
     const bool opens = !has_potential();
     const PairOutput out{contacts_.pair_contact, contacts_.guess,
                          opens ? std::span<Opening>(contacts_.pair_opening) : std::span<Opening>(),
@@ -243,32 +243,39 @@ void SoftDiscSolver::evaluate_all_walls() {
 }
 
 void SoftDiscSolver::find_all_pressures() {
+    const std::size_t pairs = contacts_.pairs().size();
+    pressures_.push.resize(pairs);
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        bad = std::min(
-            bad, find_pressures(grains_, contact_view(), options_.motion.grain_law, pressures_, begin, end));
+        bad = std::min(bad, find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio, contacts_,
+                                           pressures_, begin, end));
     }
     if (bad < size())
         throw DivergedError(packing_index(bad), "area", time_,
                             "its contacts have squeezed the grain to nothing");
+    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
+#pragma omp parallel for schedule(static) if (threads_pay_off())
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+        const std::size_t first = chunk * pairs_per_chunk;
+        find_forces(pressures_, contacts_, first, std::min(pairs, first + pairs_per_chunk));
+    }
 }
 
 void SoftDiscSolver::slide(double dt) {
-    const ForceSource source = forces();
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
     std::vector<SlidingWork> work(chunks);
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t begin = chunk * pairs_per_chunk;
-        work[chunk] = slide_pairs(options_.sliding, source, grains_, contacts_, dt, begin,
+        work[chunk] = slide_pairs(options_.sliding, grains_, contacts_, dt, begin,
                                   std::min(pairs, begin + pairs_per_chunk));
     }
     SlidingWork sum;
     for (const SlidingWork& w : work) sum.add(w);
-    sum.add(slide_walls(options_.sliding, source, grains_, contacts_, dt));
+    sum.add(slide_walls(options_.sliding, grains_, contacts_, dt));
     ledger_.friction += sum.friction;
     ledger_.adhesion += sum.adhesion;
     if (!has_potential()) ledger_.elastic -= sum.friction + sum.adhesion;
@@ -277,35 +284,33 @@ void SoftDiscSolver::slide(double dt) {
 void SoftDiscSolver::sum_wall_forces() {
     wall_force_.fill(Vec2::Zero());
     wall_damping_force_.fill(Vec2::Zero());
-    const ForceSource source = forces();
     for (std::size_t k = 0; k < contacts_.wall_pairs().size(); ++k) {
         const Contact& c = contacts_.wall_contact[k];
         if (!c.touching()) continue;
         const auto w = static_cast<std::size_t>(contacts_.wall_pairs()[k].wall);
-        const double q = source.elastic_at_wall(k);
-        const double dashpot = damping_without_pull(q, c.q_damping);
+        const double q = c.q, dashpot = damping_without_pull(q, c.q_damping);
         const Vec2 chord{c.chord_x, c.chord_y};
         wall_force_[w] += (q + dashpot) * chord;
         wall_damping_force_[w] += dashpot * chord;
-        if (source.sliding) wall_force_[w] += contacts_.wall_history.tangential[k] * perpendicular(chord);
+        if (options_.sliding.slides())
+            wall_force_[w] += contacts_.wall_history.tangential[k] * perpendicular(chord);
     }
 }
 
 /// Love-Weber stress of the cell, compression positive: (1/A) sum f on j (x) branch from i to j.
 void SoftDiscSolver::sum_cell_stress() {
     cell_stress_ = CellStress{};
-    const ForceSource source = forces();
     for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
         const Contact& c = contacts_.pair_contact[k];
         if (!c.touching()) continue;
         const Pair& pair = contacts_.pairs()[k];
-        const double q = source.elastic(k), dashpot = damping_without_pull(q, c.q_damping);
+        const double q = c.q, dashpot = damping_without_pull(q, c.q_damping);
         const Vec2 chord{c.chord_x, c.chord_y};
         const Vec2 branch = grains_.center[static_cast<std::size_t>(pair.j)] -
                             grains_.center[static_cast<std::size_t>(pair.i)] +
                             lattice_.image(contacts_.images()[k]);
         Vec2 force = (q + dashpot) * chord;
-        if (source.sliding) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
+        if (options_.sliding.slides()) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
         cell_stress_.total += force * branch.transpose();
         cell_stress_.damping += dashpot * chord * branch.transpose();
     }
@@ -386,22 +391,24 @@ double SoftDiscSolver::potential_energy() const {
         const Grain& grain = grains_.grain[g];
         const GrainMaterial& m = grains_.material_of(g);
         const double area = grain.reference_area();
-        const double T = given_way(contact_view(), grain, g);
-        const double ratio = grain.F.det() - LensPotential::inflation(T, m.bulge).G;
-        double density = 0.0;
+        const double J = grain.F.det();
+        LensPotential::Sums contacts;
+        contact_view().each_side_of(g, [&](const Side& side) {
+            contacts.add(LensPotential::overlap(side.gives_way() / (area * J)));
+        });
+        const double ratio = J * (1.0 - LensPotential::inflation(contacts, m.bulge).G);
+        double density = LensPotential::contact_energy(m.plane_E, J, contacts);
         if (options_.motion.grain_law == GrainLaw::linear) {
             const double d = half_stretch_difference(grain.F);
-            density = 2.0 * m.mu * d * d + 0.5 * m.kappa * (ratio - 1.0) * (ratio - 1.0);
+            density += 2.0 * m.mu * d * d + 0.5 * m.kappa * (ratio - 1.0) * (ratio - 1.0);
         } else {
             PlasticState strain{1.0, 0.0, 1.0};
             if (options_.motion.plastic)
                 strain = {memory_.plastic_xx[g], memory_.plastic_xy[g], memory_.plastic_yy[g]};
             const PlasticState b = elastic_strain(grain.F, strain);
-            density = 0.5 * m.mu * (b.xx + b.yy - 2.0) + LensPotential::dilation_energy(ratio, m.mu, m.kappa);
+            density +=
+                0.5 * m.mu * (b.xx + b.yy - 2.0) + LensPotential::dilation_energy(ratio, m.mu, m.kappa);
         }
-        contact_view().each_side_of(g, [&](const Side& side) {
-            density += LensPotential::contact_energy(m.plane_E, side.gives_way() / area);
-        });
         sum += area * density;
     }
     return sum + stored_energy(options_.sliding, grains_, contacts_);

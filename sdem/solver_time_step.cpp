@@ -33,10 +33,18 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     const GrainMaterial& material = grains_.material_of(g);
     const double m = grain.mass;
-    const auto pressing = [&](std::size_t other, double share, double length2) {
-        const GrainMaterial& o = grains_.material_of(other);
-        return share * share * LensPotential::bulk_stiffness(o.mu, o.kappa) * length2 /
-               grains_.grain[other].reference_area();
+    // d(beta dU/d(beta S))/dS of one grain, the other contacts as they are.
+    const auto resistance = [&](std::size_t grain_index, double share, double lens) {
+        const GrainMaterial& o = grains_.material_of(grain_index);
+        const Inflated& in = pressures_.inflated[grain_index];
+        const LensPotential::Overlap overlap = LensPotential::overlap(share * lens * in.per_area);
+        const LensPotential::Inflation inflation{0.0, in.at_q0, in.at_q1, in.at_q1_squared};
+        const double slope = inflation.slope(overlap);
+        const double bulk = LensPotential::bulk_stiffness(o.mu, o.kappa) * slope * slope;
+        const double bending = in.pressure * LensPotential::curvature(overlap, inflation);
+        return share * share *
+               (bulk / grains_.grain[grain_index].reference_area() +
+                in.per_area * (0.5 * o.plane_E / overlap.r + std::abs(bending)));
     };
     double stiffness = 0.0, viscosity = 0.0;
     contact_view().each_side_of(g, [&](const Side& side) {
@@ -48,11 +56,15 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
         const double delta = std::min(part * 1.5 * side.contact.lens() / length, 0.25 * length);
         const double E = side.wall() ? material.E : std::max(material.E, grains_.material_of(other).E);
         const double k_n = Mollon2022::stiffness(E, length, delta);
-        stiffness += part * k_n;
         viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
         if (has_potential()) {
-            stiffness += pressing(g, side.share, length2);
-            if (!side.wall()) stiffness += pressing(other, 1.0 - side.share, length2);
+            const double lens = side.contact.lens();
+            double against = resistance(g, side.share, lens);
+            if (!side.wall()) against += resistance(other, 1.0 - side.share, lens);
+            // The chord grows with the root of the depth.
+            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * lens));
+        } else {
+            stiffness += part * k_n;
         }
         if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * E;
     });

@@ -96,7 +96,7 @@ void SoftDiscSolver::fill_contacts() {
             const int j = side.wall() ? side.other : packing_index(static_cast<std::size_t>(side.other));
             if (!side.wall() && i > j) return;  // told by the other grain
             const Contact& c = side.contact;
-            const double q = source.elastic(side, g);
+            const double q = c.q;
             const Vec2 chord = -side.sign() * Vec2{c.chord_x, c.chord_y};  // out of this grain
             GrainContact contact;
             contact.i = i;

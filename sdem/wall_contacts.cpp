@@ -35,10 +35,8 @@ WallNews evaluate_walls(const WallInput& in, ContactList& list) {
         if (!chord.touching) continue;
         const Vec2 arm = chord.point - in.grains.center[g];
         const Vec2 against_wall = velocity_at(grain, arm) - in.motion.velocity_of(pair.wall);
-        const double s = chord.cap / grain.reference_area();
-        const ContactInput input{
-            chord.length, chord.depth, -inward.dot(against_wall), s, 0.0, material.plane_E, 0.0,
-            material.E,   grain.mass};
+        const ContactInput input{chord.length, chord.depth, -inward.dot(against_wall), material.E,
+                                 grain.mass};
         const ContactAnswer answer = in.law == ContactLaw::lens_potential
                                          ? LensPotential::contact(input, in.contact_damping)
                                          : Mollon2022::contact(input, in.contact_damping);

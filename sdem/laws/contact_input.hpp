@@ -3,22 +3,20 @@
 
 namespace softgrain::sdem {
 
-/// A contact as its law sees it. At a wall: area share 1 and 0, s_j = 0, and the full depth.
+/// A contact as its law sees it. At a wall: the full depth.
 struct ContactInput {
-    double length;    ///< L_c [m]
-    double delta;     ///< -delta_n of Eq. 54: half of the overlap of two grains, all of it at a wall [m]
-    double rate;      ///< d(delta)/dt, positive while closing [m/s]
-    double s_i, s_j;  ///< overlap that each grain gives way to / its reference area
-    double stiff_i, stiff_j;  ///< beta E/(1 - nu^2) of each grain [N/m]
-    double E;                 ///< harmonic mean of both grains' E [N/m]
-    double mass;              ///< 1/(1/m_i + 1/m_j) [kg]
+    double length;  ///< L_c [m]
+    double delta;   ///< -delta_n of Eq. 54: half of the overlap of two grains, all of it at a wall [m]
+    double rate;    ///< d(delta)/dt, positive while closing [m/s]
+    double E;       ///< harmonic mean of both grains' E [N/m]
+    double mass;    ///< 1/(1/m_i + 1/m_j) [kg]
 };
 
 /// Force per chord length.
 struct ContactAnswer {
-    double q;          ///< elastic, compression positive [N/m]
+    double q;          ///< elastic, as far as it is the contact's alone; compression positive [N/m]
     double q_damping;  ///< of the dashpot [N/m]
-    double stiffness;  ///< of the force against the approach, for the time step [N/m]; <= 0 if the law fails
+    double stiffness;  ///< of the force against the approach [N/m]; <= 0 if the law fails
 };
 
 }  // namespace softgrain::sdem

@@ -98,15 +98,90 @@ TEST(LensPotential, DerivativesOfItsParts) {
             test::slope([&](double d) { return LensPotential::dilation_energy(J + d, mu, kappa); }, h);
         EXPECT_NEAR(LensPotential::pressure(J, mu, kappa), -slope, 1e-9) << "J " << J;
     }
-    for (double nu : {0.0, 0.3, 0.5})
-        for (double T : {0.002, 0.05, 0.2, 1.0}) {
-            const double chi = LensPotential::bulge(nu);
-            const double slope =
-                test::slope([&](double d) { return LensPotential::inflation(T + d, chi).G; }, h);
-            EXPECT_NEAR(LensPotential::inflation(T, chi).slope, slope, 1e-9) << "T " << T;
-        }
     EXPECT_EQ(LensPotential::pressure(1.0, mu, kappa), 0.0);
     EXPECT_NEAR(LensPotential::dilation_energy(1.0, mu, kappa), 0.0, 1e-15);
+}
+
+/// Overlaps of one grain's contacts, from two light ones to eight that fill it.
+const std::vector<std::vector<double>> overlaps{{1e-7, 3e-5},
+                                                {0.02},
+                                                {1e-3, 2e-3, 1.5e-3, 2e-6},
+                                                {0.01, 0.013, 0.008, 0.015, 0.004, 3e-4},
+                                                {0.02, 0.01, 0.03, 0.02, 0.015, 0.02, 0.025, 0.01}};
+
+LensPotential::Sums sums_of(const std::vector<double>& h) {
+    LensPotential::Sums sums;
+    for (double value : h) sums.add(LensPotential::overlap(value));
+    return sums;
+}
+
+TEST(LensPotential, InflationAndItsDerivatives) {
+    for (double nu : {0.0, 0.3, 0.5})
+        for (const std::vector<double>& h : overlaps) {
+            const double bulge = LensPotential::bulge(nu);
+            const LensPotential::Inflation in = LensPotential::inflation(sums_of(h), bulge);
+            for (std::size_t k = 0; k < h.size(); ++k) {
+                const double slope = test::slope(
+                    [&](double d) {
+                        std::vector<double> moved = h;
+                        moved[k] += d;
+                        return LensPotential::inflation(sums_of(moved), bulge).G;
+                    },
+                    0.01 * h[k]);
+                // Truncation: (1 %)^4 of the value.
+                EXPECT_NEAR(in.slope(LensPotential::overlap(h[k])), slope, 1e-6 * slope + 1e-9)
+                    << "nu " << nu << " h " << h[k];
+            }
+        }
+}
+
+TEST(LensPotential, InflationIsTheFormulaAsWritten) {
+    using L = LensPotential;
+    for (double nu : {0.0, 0.3, 0.5})
+        for (const std::vector<double>& h : overlaps) {
+            double base = 0.0, Q0 = 0.0, Q1 = 0.0, Q2 = 0.0, local = 0.0;
+            for (double v : h) {
+                const double rho = std::sqrt(v) / (std::sqrt(v) + L::r0);
+                const double q0 = v / (v + L::s0) * rho, q1 = v / (v + L::s1) * rho;
+                base += v * v / (v + L::s0), Q0 += q0, Q1 += q1, Q2 += q1 * q1, local += std::pow(v, 1.5);
+            }
+            const double a = 1.0 / (1.0 + std::pow(Q1 * Q1 / Q2 / L::n0, 8.0));
+            const double b = 1.0 / (1.0 + std::pow(Q1 / L::Qc, 16.0));
+            const double chi = (a - L::gamma * (1.0 - 2.0 * nu) / (1.0 - nu)) * b;
+            const L::Sums sums = sums_of(h);
+            const double G = base + L::s0 * Q0 * (1.0 - chi);
+            EXPECT_NEAR(L::inflation(sums, L::bulge(nu)).G, G, 1e-14 * G);
+            EXPECT_NEAR(L::contact_energy(3.0, 0.9, sums), 1.8 * local, 1e-14 * local);
+        }
+}
+
+TEST(LensPotential, AGrainWithoutContactsIsNotInflated) {
+    const LensPotential::Overlap none = LensPotential::overlap(0.0);
+    for (double value : {none.r, none.base, none.q0, none.q1, none.base_slope, none.q0_slope, none.q1_slope})
+        EXPECT_EQ(value, 0.0);
+    const LensPotential::Inflation in = LensPotential::inflation(LensPotential::Sums{}, 0.1);
+    EXPECT_EQ(in.G, 0.0);
+    EXPECT_EQ(in.slope(none), 0.0);
+    // The lightest touch is no step: force and its slope start from 0.
+    const LensPotential::Inflation light = LensPotential::inflation(sums_of({1e-30}), 0.1);
+    EXPECT_LT(light.G, 1e-30);
+    EXPECT_LT(light.slope(LensPotential::overlap(1e-30)), 1e-10);
+}
+
+TEST(LensPotential, SlopesOfOverlapAndTheirOwn) {
+    for (double h : {1e-7, 1e-4, 3e-3, 0.05}) {
+        const LensPotential::Overlap o = LensPotential::overlap(h);
+        const auto slope = [&](double LensPotential::Overlap::*part) {
+            return test::slope([&](double d) { return LensPotential::overlap(h + d).*part; }, 0.01 * h);
+        };
+        EXPECT_NEAR(o.base_slope, slope(&LensPotential::Overlap::base), 1e-7 * o.base_slope);
+        EXPECT_NEAR(o.q0_slope, slope(&LensPotential::Overlap::q0), 1e-7 * o.q0_slope);
+        EXPECT_NEAR(o.q1_slope, slope(&LensPotential::Overlap::q1), 1e-7 * o.q1_slope);
+        const LensPotential::Inflation in{0.0, 0.7, 2.0, 0.3};
+        const double bend =
+            test::slope([&](double d) { return in.slope(LensPotential::overlap(h + d)); }, 0.01 * h);
+        EXPECT_NEAR(LensPotential::curvature(o, in), bend, 1e-6 * std::abs(bend));
+    }
 }
 
 TEST(LensPotential, APairIsPressedByBothGrainsAlike) {
