@@ -168,7 +168,14 @@ void SoftDiscSolver::rebuild_contacts() {
     double mean_radius = 0.0;
     for (const Grain& g : grains_.grain) mean_radius += g.radius / static_cast<double>(size());
     lattice_ = cell().box;
-    contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+    try {
+        contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+    } catch (const InputError& error) {
+        if (steps_ == 0) throw;
+        const auto largest = std::max_element(grains_.reach.begin(), grains_.reach.end());
+        throw DivergedError(packing_index(static_cast<std::size_t>(largest - grains_.reach.begin())), "F",
+                            time_, error.what());
+    }
     contacts_.find_shares(grains_);
 }
 
@@ -341,7 +348,8 @@ void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& w
 bool SoftDiscSolver::sound(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     return (grains_.center[g] - grains_.next_center[g]).squaredNorm() <= 0.25 * grain.radius * grain.radius &&
-           grain.F.det() > smallest_area_ratio && grains_.reach[g] < std::numeric_limits<double>::infinity();
+           grain.F.det() > smallest_area_ratio &&
+           grains_.reach[g] <= largest_stretch * std::max(grain.a, grain.b);
 }
 
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
@@ -351,6 +359,10 @@ void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
         throw DivergedError(
             packing_index(g), "position", time_,
             fmt::format("moved {:.3g} radii in one step; use a smaller sdem.safety", step / grain.radius));
+    if (grain.F.det() > smallest_area_ratio)
+        throw DivergedError(packing_index(g), "F", time_,
+                            fmt::format("the grain is stretched to {:.3g} of its undeformed size",
+                                        grains_.reach[g] / std::max(grain.a, grain.b)));
     throw DivergedError(packing_index(g), "det F", time_,
                         fmt::format("{:.3g}: the grain is crushed or inside out", grain.F.det()));
 }

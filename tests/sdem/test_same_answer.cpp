@@ -100,7 +100,7 @@ void stir(Solver& solver, double speed) {
 }
 
 TEST(Threads, AnyNumberGivesTheSameBits) {
-    const Packing packing = lattice(21);
+    const Packing packing = lattice(29);
     const int before = omp_get_max_threads();
     std::vector<Checkpoint> results;
     for (int threads : {1, 2, 3, 4}) {

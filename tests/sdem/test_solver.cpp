@@ -63,7 +63,7 @@ Packing lattice(int side) {
 }
 
 TEST(Threads, SameBitsForOneAndTwo) {
-    const Packing packing = lattice(21);
+    const Packing packing = lattice(29);
     const auto run_with = [&](int threads) {
         omp_set_num_threads(threads);
         auto solver = test::solver_for(test::scenario_with(0.3), packing);
