@@ -1,7 +1,6 @@
 #include "sdem/pressure_block.hpp"
 
 #include "common/simd.hpp"
-#include "sdem/laws/lens_potential.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -67,7 +66,7 @@ SOFTGRAIN_INLINE void press(PressureBlock& b) {
         for (int l = 0; l < b.count; ++l) {
             const LensPotential::Inflation in{0.0, b.at_q0[l], b.at_q1[l], b.at_q1_squared[l]};
             const double slope = in.slope(row.base_slope[l], row.q0_slope[l], row.q1[l], row.q1_slope[l]);
-            row.push[l] = row.share[l] * (b.pressure[l] * slope + b.plane_E[l] * row.r[l]);
+            row.answer[l] = row.share[l] * (b.pressure[l] * slope + b.plane_E[l] * row.r[l]);
         }
     }
 }
@@ -79,7 +78,23 @@ SOFTGRAIN_CLONES void press_linear(PressureBlock& block) {
     press<GrainLaw::linear>(block);
 }
 
+SOFTGRAIN_CLONES void resist(PressureBlock& b) {
+    for (int k = 0; k < b.rows; ++k) {
+        OverlapRow& row = b.row[k];
+#pragma omp simd
+        for (int l = 0; l < b.count; ++l) {
+            const Inflated grain{b.pressure[l], b.per_area[l], b.at_q0[l], b.at_q1[l], b.at_q1_squared[l]};
+            row.answer[l] = resistance(grain, row.overlap[l], row.share[l], b.area[l], b.plane_E[l],
+                                       LensPotential::bulk_stiffness(b.mu[l], b.kappa[l]));
+        }
+    }
+}
+
 }  // namespace
+
+void find_resistances(PressureBlock& block) {
+    resist(block);
+}
 
 void find_pressures(PressureBlock& block, GrainLaw law) {
     law == GrainLaw::neo_hookean ? press_neo_hookean(block) : press_linear(block);

@@ -17,11 +17,46 @@ double SoftDiscSolver::time_step_share() const {
     return options_.safety * delay;
 }
 
-double SoftDiscSolver::time_step_limit() const {
+double SoftDiscSolver::time_step_limit() {
+    if (has_potential()) {
+        resistance_.resize(contacts_);
+#pragma omp parallel for schedule(static) if (threads_pay_off())
+        for (std::size_t block = 0; block < blocks(); ++block)
+            find_resistances(grains_, contacts_, pressures_.inflated, resistance_, block * grains_per_block,
+                             std::min(size(), (block + 1) * grains_per_block));
+    }
     double smallest = std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
     for (std::size_t g = 0; g < size(); ++g) smallest = std::min(smallest, grain_time_step(g));
     return time_step_share() * smallest;
+}
+
+/// The same for the grains with a contact that has just closed.
+double SoftDiscSolver::disturbed_time_step_limit() {
+    double smallest = std::numeric_limits<double>::infinity();
+    if (has_potential()) resistance_.resize(contacts_);
+    for (const std::size_t g : disturbed_) {
+        if (has_potential()) resist_around(g);
+        smallest = std::min(smallest, grain_time_step(g));
+    }
+    return time_step_share() * smallest;
+}
+
+/// Resistances at the contacts of one grain.
+void SoftDiscSolver::resist_around(std::size_t g) {
+    const auto of = [&](std::size_t grain, const Side& side, double share) {
+        return resistance_of(grains_, pressures_.inflated, grain, side.contact.lens(), share);
+    };
+    contact_view().each_side_of(g, [&](const Side& side) {
+        const double own = of(g, side, side.share);
+        if (side.wall()) {
+            resistance_.wall[side.index] = own;
+        } else {
+            const double others = of(static_cast<std::size_t>(side.other), side, 1.0 - side.share);
+            resistance_.pair[side.index] =
+                side.second ? SideValues::OfPair{others, own} : SideValues::OfPair{own, others};
+        }
+    });
 }
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4
@@ -33,19 +68,6 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     const GrainMaterial& material = grains_.material_of(g);
     const double m = grain.mass;
-    // d(beta dU/d(beta S))/dS of one grain, the other contacts as they are.
-    const auto resistance = [&](std::size_t grain_index, double share, double lens) {
-        const GrainMaterial& o = grains_.material_of(grain_index);
-        const Inflated& in = pressures_.inflated[grain_index];
-        const LensPotential::Overlap overlap = LensPotential::overlap(share * lens * in.per_area);
-        const LensPotential::Inflation inflation{0.0, in.at_q0, in.at_q1, in.at_q1_squared};
-        const double slope = inflation.slope(overlap);
-        const double bulk = LensPotential::bulk_stiffness(o.mu, o.kappa) * slope * slope;
-        const double bending = in.pressure * LensPotential::curvature(overlap, inflation);
-        return share * share *
-               (bulk / grains_.grain[grain_index].reference_area() +
-                in.per_area * (0.5 * o.plane_E / overlap.r + std::abs(bending)));
-    };
     double stiffness = 0.0, viscosity = 0.0;
     contact_view().each_side_of(g, [&](const Side& side) {
         const auto other = static_cast<std::size_t>(side.wall() ? 0 : side.other);
@@ -58,11 +80,11 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
         const double k_n = Mollon2022::stiffness(E, length, delta);
         viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
         if (has_potential()) {
-            const double lens = side.contact.lens();
-            double against = resistance(g, side.share, lens);
-            if (!side.wall()) against += resistance(other, 1.0 - side.share, lens);
+            const double against = side.wall()
+                                       ? resistance_.wall[side.index]
+                                       : resistance_.pair[side.index].i + resistance_.pair[side.index].j;
             // The chord grows with the root of the depth.
-            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * lens));
+            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * side.contact.lens()));
         } else {
             stiffness += part * k_n;
         }
