@@ -33,8 +33,10 @@ SOFTGRAIN_INLINE double resistance(const Inflated& grain, double overlap, double
 
 struct PressureBlock {
     using Lane = double[grains_per_block];
-    int count, rows;
-    OverlapRow* row;  ///< [rows]
+    static constexpr int group = 16;  ///< lanes that share their number of rows
+    static constexpr int groups = static_cast<int>(grains_per_block) / group;
+    int count, rows[groups];
+    OverlapRow* row;  ///< [largest of rows]
     alignas(64) Lane det, area, mu, kappa, plane_E, bulge;
     alignas(64) Lane area_ratio;  ///< Je
     alignas(64) Lane stress;      ///< P: -dU/dJ at fixed overlaps, without the shear part [N/m]

@@ -1,6 +1,7 @@
 #pragma once
 // How grains press on their contacts under the lens potential: each grain's answer depends on all that
 // touches it, a contact's force on the answers of both grains.
+#include <span>
 #include <vector>
 
 #include "sdem/contact_list.hpp"
@@ -33,12 +34,9 @@ struct Pressures {
 std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, const ContactList& list,
                            Pressures& pressures, std::size_t begin, std::size_t end);
 
-/// Resistances of the grains [begin, end) against more overlap at each contact [N/m^3].
+/// Resistances of these grains, at most grains_per_block, against more overlap at each contact [N/m^3].
 void find_resistances(const Grains& grains, const ContactList& list, std::span<const Inflated> inflated,
-                      SideValues& resistance, std::size_t begin, std::size_t end);
-/// The same of one side of a contact.
-double resistance_of(const Grains& grains, std::span<const Inflated> inflated, std::size_t g, double lens,
-                     double share);
+                      SideValues& resistance, std::span<const std::size_t> which);
 
 /// Elastic forces of the pairs [begin, end), or of all walls, from the pushes of both sides.
 void find_pair_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end);

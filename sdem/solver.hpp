@@ -87,7 +87,7 @@ class SoftDiscSolver : public Solver {
     double time_step_share() const;
     void limit_time_step(double dt);
     double disturbed_time_step_limit();
-    void resist_around(std::size_t g);
+    void resist_disturbed();
     double grain_time_step(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 

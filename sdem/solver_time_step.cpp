@@ -1,7 +1,9 @@
 // Largest stable time step.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/laws/mollon2022.hpp"
@@ -21,9 +23,13 @@ double SoftDiscSolver::time_step_limit() {
     if (has_potential()) {
         resistance_.resize(contacts_);
 #pragma omp parallel for schedule(static) if (threads_pay_off())
-        for (std::size_t block = 0; block < blocks(); ++block)
-            find_resistances(grains_, contacts_, pressures_.inflated, resistance_, block * grains_per_block,
-                             std::min(size(), (block + 1) * grains_per_block));
+        for (std::size_t block = 0; block < blocks(); ++block) {
+            const std::size_t begin = block * grains_per_block;
+            std::array<std::size_t, grains_per_block> grain;
+            std::iota(grain.begin(), grain.end(), begin);
+            find_resistances(grains_, contacts_, pressures_.inflated, resistance_,
+                             std::span(grain).first(std::min(size() - begin, grains_per_block)));
+        }
     }
     double smallest = std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
@@ -33,30 +39,25 @@ double SoftDiscSolver::time_step_limit() {
 
 /// The same for the grains with a contact that has just closed.
 double SoftDiscSolver::disturbed_time_step_limit() {
+    if (has_potential()) resist_disturbed();
     double smallest = std::numeric_limits<double>::infinity();
-    if (has_potential()) resistance_.resize(contacts_);
-    for (const std::size_t g : disturbed_) {
-        if (has_potential()) resist_around(g);
-        smallest = std::min(smallest, grain_time_step(g));
-    }
+    for (const std::size_t g : disturbed_) smallest = std::min(smallest, grain_time_step(g));
     return time_step_share() * smallest;
 }
 
-/// Resistances at the contacts of one grain.
-void SoftDiscSolver::resist_around(std::size_t g) {
-    const auto of = [&](std::size_t grain, const Side& side, double share) {
-        return resistance_of(grains_, pressures_.inflated, grain, side.contact.lens(), share);
-    };
-    contact_view().each_side_of(g, [&](const Side& side) {
-        const double own = of(g, side, side.share);
-        if (side.wall()) {
-            resistance_.wall[side.index] = own;
-        } else {
-            const double others = of(static_cast<std::size_t>(side.other), side, 1.0 - side.share);
-            resistance_.pair[side.index] =
-                side.second ? SideValues::OfPair{others, own} : SideValues::OfPair{own, others};
-        }
-    });
+/// Resistances at all contacts of the disturbed grains, on both sides.
+void SoftDiscSolver::resist_disturbed() {
+    resistance_.resize(contacts_);
+    std::vector<std::size_t> grain;
+    for (const std::size_t g : disturbed_) {
+        grain.push_back(g);
+        contact_view().each_side_of(g, [&](const Side& side) {
+            if (!side.wall()) grain.push_back(static_cast<std::size_t>(side.other));
+        });
+    }
+    for (std::size_t begin = 0; begin < grain.size(); begin += grains_per_block)
+        find_resistances(grains_, contacts_, pressures_.inflated, resistance_,
+                         std::span(grain).subspan(begin, std::min(grain.size() - begin, grains_per_block)));
 }
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4
