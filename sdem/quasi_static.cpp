@@ -14,7 +14,7 @@ namespace {
 constexpr int most_steps = 100000;
 constexpr int steps_between_limits = 50;
 /// Force out of balance that counts as rest where no contact carries any, in E R.
-constexpr double floating_force = 1e-9;
+constexpr double floating_force = 1e-6;
 
 }  // namespace
 

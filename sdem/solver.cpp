@@ -425,8 +425,10 @@ void SoftDiscSolver::watch_energy() {
     constexpr double largest_gain = 0.05, largest_gain_without_potential = 1.0, rounding = 1e-12;
     const EnergyLedger ledger = energy();
     const double elastic = has_potential() ? ledger.elastic : potential_energy();
+    const double in_contacts = stored_energy(options_.sliding, grains_, contacts_);  // negative if cohesive
     const Balance now{ledger.kinetic + elastic + ledger.dissipated() - ledger.external_work,
-                      ledger.kinetic + elastic, ledger.external_work, true};
+                      ledger.kinetic + (elastic - in_contacts) + std::abs(in_contacts), ledger.external_work,
+                      true};
     const double gain = now.energy - balance_.energy;
     const double allowed = has_potential() ? largest_gain : largest_gain_without_potential;
     const double scale = balance_.held + std::abs(now.external_work - balance_.external_work) +

@@ -49,7 +49,7 @@ class SoftDiscSolver : public Solver {
     void throw_bad_grain(std::size_t g) const;
     double time_step_limit();
     double potential_energy() const;
-    bool threads_pay_off() const { return size() >= 400; }
+    bool threads_pay_off() const { return size() >= 800; }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
     ContactView contact_view() const { return {contacts_, grains_.center, lattice_}; }

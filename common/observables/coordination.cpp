@@ -1,13 +1,39 @@
 #include "common/observables/coordination.hpp"
 
+#include <algorithm>
 #include <vector>
 
+#include "common/gather.hpp"
+
 namespace softgrain {
+namespace {
+
+/// Grains with fewer than 2 contacts, removed one after the other; `touching` counts walls too.
+std::vector<bool> find_rattlers(const PairsOfGrain& pairs_of, const std::vector<Pair>& pairs,
+                                std::vector<int> touching) {
+    std::vector<bool> rattler(touching.size(), false);
+    std::vector<std::size_t> loose;
+    for (std::size_t g = 0; g < touching.size(); ++g)
+        if (touching[g] < 2) loose.push_back(g);
+    while (!loose.empty()) {
+        const std::size_t g = loose.back();
+        loose.pop_back();
+        rattler[g] = true;
+        for (const PairsOfGrain::Entry entry : pairs_of.of(g)) {
+            const Pair& pair = pairs[static_cast<std::size_t>(entry.pair)];
+            const auto other = static_cast<std::size_t>(entry.second ? pair.i : pair.j);
+            if (--touching[other] == 1) loose.push_back(other);
+        }
+    }
+    return rattler;
+}
+
+}  // namespace
 
 Coordination coordination(const GrainView& view) {
     const auto n = view.size();
     std::vector<int> touching(n, 0);
-    int grain_contacts = 0;
+    std::vector<Pair> pairs;
     int wall_contacts = 0;
     for (const GrainContact& c : view.contacts) {
         ++touching[static_cast<std::size_t>(c.i)];
@@ -15,30 +41,17 @@ Coordination coordination(const GrainView& view) {
             ++wall_contacts;
         } else {
             ++touching[static_cast<std::size_t>(c.j)];
-            ++grain_contacts;
+            pairs.push_back({c.i, c.j});
         }
     }
-    std::vector<bool> rattler(n, false);
-    int rattlers = 0;
-    for (bool found = true; found;) {
-        found = false;
-        for (std::size_t g = 0; g < n; ++g) {
-            if (rattler[g] || touching[g] >= 2) continue;
-            rattler[g] = found = true;
-            ++rattlers;
-            for (const GrainContact& c : view.contacts) {
-                if (c.with_wall()) continue;
-                const auto i = static_cast<std::size_t>(c.i);
-                const auto j = static_cast<std::size_t>(c.j);
-                if (i == g) --touching[j];
-                if (j == g) --touching[i];
-            }
-        }
-    }
+    const auto grain_contacts = static_cast<double>(pairs.size());
+    PairsOfGrain pairs_of;
+    pairs_of.build(pairs, n);
+    const std::vector<bool> rattler = find_rattlers(pairs_of, pairs, touching);
+    const auto rattlers = static_cast<int>(std::count(rattler.begin(), rattler.end(), true));
     int carrying = 0;
-    for (const GrainContact& c : view.contacts)
-        if (!c.with_wall() && !rattler[static_cast<std::size_t>(c.i)] &&
-            !rattler[static_cast<std::size_t>(c.j)])
+    for (const Pair& pair : pairs)
+        if (!rattler[static_cast<std::size_t>(pair.i)] && !rattler[static_cast<std::size_t>(pair.j)])
             ++carrying;
     const auto count = static_cast<double>(n);
     const double left = count - rattlers;

@@ -10,28 +10,48 @@ namespace {
 class RegularPolygon {
   public:
     RegularPolygon(const Ellipse& e, int nodes)
-        : center_(e.center), inverse_(e.inverse), step_(2.0 * std::numbers::pi / nodes) {}
+        : center_(e.center),
+          inverse_(e.inverse),
+          step_(2.0 * std::numbers::pi / nodes),
+          apothem_(std::cos(0.5 * step_)) {}
 
     /// Positive outside, zero on the polygon's edges; exact for the polygon, not for the ellipse.
     double level(const Vec2& x) const {
         const Vec2 u = inverse_ * (x - center_);
         const double middle = (std::floor(std::atan2(u.y(), u.x()) / step_) + 0.5) * step_;
-        return u.x() * std::cos(middle) + u.y() * std::sin(middle) - std::cos(0.5 * step_);
+        return u.x() * std::cos(middle) + u.y() * std::sin(middle) - apothem_;
+    }
+    /// Most points are told by the circles around and inside the polygon.
+    bool contains(const Vec2& x) const {
+        const double r2 = (inverse_ * (x - center_)).squaredNorm();
+        if (r2 > 1.0) return false;
+        return r2 <= apothem_ * apothem_ || level(x) <= 0.0;
     }
 
   private:
     Vec2 center_;
     Mat2 inverse_;
-    double step_;
+    double step_, apothem_;
 };
 
-/// Where the edge from a (outside) to b (inside) enters the polygon.
+/// Where the edge from outside to inside enters the polygon: false position, exact once both ends look at the
+/// same edge of the polygon.
 Vec2 crossing(const RegularPolygon& polygon, Vec2 outside, Vec2 inside) {
-    for (int k = 0; k < 52; ++k) {
-        const Vec2 middle = 0.5 * (outside + inside);
-        (polygon.level(middle) > 0.0 ? outside : inside) = middle;
+    double above = polygon.level(outside), below = polygon.level(inside);
+    Vec2 x = inside;
+    for (int k = 0; k < 60; ++k) {
+        x = outside + (above / (above - below)) * (inside - outside);
+        const double level = polygon.level(x);
+        if (std::abs(level) < 1e-15) break;
+        if (level > 0.0) {
+            outside = x;
+            above = level;
+        } else {
+            inside = x;
+            below = level;
+        }
     }
-    return 0.5 * (outside + inside);
+    return x;
 }
 
 /// Entry and exit of the outline `nodes` into the polygon of the other grain.
@@ -41,10 +61,10 @@ struct Crossings {
 std::optional<Crossings> crossings_of(const std::vector<Vec2>& nodes, const RegularPolygon& other) {
     std::optional<Vec2> entry, exit;
     const std::size_t n = nodes.size();
-    bool inside_before = other.level(nodes[n - 1]) <= 0.0;
+    bool inside_before = other.contains(nodes[n - 1]);
     for (std::size_t k = 0; k < n; ++k) {
-        const Vec2& before = nodes[(k + n - 1) % n];
-        const bool is_inside = other.level(nodes[k]) <= 0.0;
+        const Vec2& before = nodes[k == 0 ? n - 1 : k - 1];
+        const bool is_inside = other.contains(nodes[k]);
         if (is_inside && !inside_before) entry = crossing(other, before, nodes[k]);
         if (!is_inside && inside_before) exit = crossing(other, nodes[k], before);
         inside_before = is_inside;
@@ -61,7 +81,7 @@ Cap cap_beyond(const std::vector<Vec2>& nodes, const Vec2& p, const Vec2& q, con
     Cap cap;
     // The nodes beyond the chord follow each other; the first one after a node on this side opens the cap.
     const std::size_t n = nodes.size();
-    const auto beyond = [&](std::size_t k) { return direction.dot(nodes[k % n] - p); };
+    const auto beyond = [&](std::size_t k) { return direction.dot(nodes[k < n ? k : k - n] - p); };
     std::size_t first = 0;
     while (first < n && !(beyond(first) > 0.0 && beyond(first + n - 1) <= 0.0)) ++first;
     if (first == n) return cap;
@@ -73,8 +93,8 @@ Cap cap_beyond(const std::vector<Vec2>& nodes, const Vec2& p, const Vec2& q, con
     double twice = 0.0;
     for (std::size_t k = first; beyond(k) > 0.0 && k < first + n; ++k) {
         cap.depth = std::max(cap.depth, beyond(k));
-        twice += cross(last - start, nodes[k % n] - start);
-        last = nodes[k % n];
+        twice += cross(last - start, nodes[k < n ? k : k - n] - start);
+        last = nodes[k < n ? k : k - n];
     }
     twice += cross(last - start, end - start);
     cap.area = 0.5 * twice;
@@ -83,13 +103,25 @@ Cap cap_beyond(const std::vector<Vec2>& nodes, const Vec2& p, const Vec2& q, con
 
 }  // namespace
 
-std::vector<Vec2> outline_nodes(const Ellipse& e, int nodes) {
-    std::vector<Vec2> x(static_cast<std::size_t>(nodes));
-    const double step = 2.0 * std::numbers::pi / nodes;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double beta = step * static_cast<double>(k);
-        x[k] = e.center + e.axes * Vec2{std::cos(beta), std::sin(beta)};
+namespace {
+
+/// Unit vectors at equal steps of angle, kept from call to call.
+const std::vector<Vec2>& directions(int nodes) {
+    static thread_local std::vector<Vec2> kept;
+    if (kept.size() != static_cast<std::size_t>(nodes)) {
+        kept.clear();
+        const double step = 2.0 * std::numbers::pi / nodes;
+        for (int k = 0; k < nodes; ++k) kept.emplace_back(std::cos(step * k), std::sin(step * k));
     }
+    return kept;
+}
+
+}  // namespace
+
+std::vector<Vec2> outline_nodes(const Ellipse& e, int nodes) {
+    std::vector<Vec2> x;
+    x.reserve(static_cast<std::size_t>(nodes));
+    for (const Vec2& u : directions(nodes)) x.emplace_back(e.center + e.axes * u);
     return x;
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "common/observables/coordination.hpp"
 #include "common/observables/stress.hpp"
@@ -38,6 +40,46 @@ TEST(Coordination, WallContactsHoldAGrain) {
     EXPECT_EQ(z.rattlers, 0);
     EXPECT_DOUBLE_EQ(z.all, 1.0);
     EXPECT_DOUBLE_EQ(z.with_walls, 2.0);
+}
+
+/// Random contacts, against removal one grain at a time until nothing changes.
+TEST(Coordination, RattlersOfRandomContacts) {
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 50; ++trial) {
+        const int n = 30;
+        std::uniform_int_distribution<int> any(0, n - 1);
+        std::vector<GrainContact> contacts;
+        for (int k = 0; k < 25 + trial % 10; ++k) {
+            const int a = any(random), b = any(random);
+            if (a != b) contacts.push_back(between(std::min(a, b), k % 7 == 0 ? -1 : std::max(a, b)));
+        }
+        std::vector<bool> gone(n, false);
+        const auto present = [&](const GrainContact& c) {
+            return !gone[static_cast<std::size_t>(c.i)] && (c.j < 0 || !gone[static_cast<std::size_t>(c.j)]);
+        };
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (int g = 0; g < n && !changed; ++g) {
+                const auto held = std::count_if(contacts.begin(), contacts.end(), [&](const GrainContact& c) {
+                    return present(c) && (c.i == g || c.j == g);
+                });
+                if (gone[static_cast<std::size_t>(g)] || held >= 2) continue;
+                gone[static_cast<std::size_t>(g)] = changed = true;
+            }
+        }
+        const auto rattlers = static_cast<int>(std::count(gone.begin(), gone.end(), true));
+        const auto carrying = std::count_if(contacts.begin(), contacts.end(),
+                                            [&](const GrainContact& c) { return c.j >= 0 && present(c); });
+        const std::vector<Vec2> x(n, Vec2::Zero());
+        GrainView view;
+        view.centroid = x;
+        view.contacts = contacts;
+        const Coordination z = coordination(view);
+        EXPECT_EQ(z.rattlers, rattlers);
+        if (rattlers < n) {
+            EXPECT_DOUBLE_EQ(z.without_rattlers, 2.0 * static_cast<double>(carrying) / (n - rattlers));
+        }
+    }
 }
 
 /// One disc of radius 1 between four walls, 3 N on each vertical wall and 5 N on each horizontal one.
