@@ -200,8 +200,7 @@ void SoftDiscSolver::limit_time_step(double dt) {
         const double limit = time_step_limit();
         if (limit < time_step_ || limit > worth_a_change * time_step_) time_step_ = limit;
     } else if (dt > 0.0) {
-        for (const std::size_t g : disturbed_)
-            time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g));
+        time_step_ = std::min(time_step_, disturbed_time_step_limit());
     }
 }
 
@@ -244,7 +243,7 @@ void SoftDiscSolver::evaluate_all_walls() {
 
 void SoftDiscSolver::find_all_pressures() {
     const std::size_t pairs = contacts_.pairs().size();
-    pressures_.push.resize(pairs);
+    pressures_.push.resize(contacts_);
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
@@ -259,8 +258,9 @@ void SoftDiscSolver::find_all_pressures() {
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t first = chunk * pairs_per_chunk;
-        find_forces(pressures_, contacts_, first, std::min(pairs, first + pairs_per_chunk));
+        find_pair_forces(pressures_.push, contacts_, first, std::min(pairs, first + pairs_per_chunk));
     }
+    find_wall_forces(pressures_.push, contacts_);
 }
 
 void SoftDiscSolver::slide(double dt) {

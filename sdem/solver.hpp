@@ -47,7 +47,7 @@ class SoftDiscSolver : public Solver {
     /// False if the grain has moved by more than half its radius from next_center, is crushed or inside out.
     bool sound(std::size_t g) const;
     void throw_bad_grain(std::size_t g) const;
-    double time_step_limit() const;
+    double time_step_limit();
     double potential_energy() const;
     bool threads_pay_off() const { return size() >= 800; }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
@@ -86,6 +86,8 @@ class SoftDiscSolver : public Solver {
     void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
     double time_step_share() const;
     void limit_time_step(double dt);
+    double disturbed_time_step_limit();
+    void resist_disturbed();
     double grain_time_step(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
@@ -106,6 +108,7 @@ class SoftDiscSolver : public Solver {
 
     int flips_ = 0;
     double time_step_ = 0.0;              ///< [s] found every few steps
+    SideValues resistance_;               ///< of the grains against more overlap
     std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation

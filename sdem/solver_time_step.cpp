@@ -1,7 +1,9 @@
 // Largest stable time step.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/laws/mollon2022.hpp"
@@ -17,11 +19,45 @@ double SoftDiscSolver::time_step_share() const {
     return options_.safety * delay;
 }
 
-double SoftDiscSolver::time_step_limit() const {
+double SoftDiscSolver::time_step_limit() {
+    if (has_potential()) {
+        resistance_.resize(contacts_);
+#pragma omp parallel for schedule(static) if (threads_pay_off())
+        for (std::size_t block = 0; block < blocks(); ++block) {
+            const std::size_t begin = block * grains_per_block;
+            std::array<std::size_t, grains_per_block> grain;
+            std::iota(grain.begin(), grain.end(), begin);
+            find_resistances(grains_, contacts_, pressures_.inflated, resistance_,
+                             std::span(grain).first(std::min(size() - begin, grains_per_block)));
+        }
+    }
     double smallest = std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
     for (std::size_t g = 0; g < size(); ++g) smallest = std::min(smallest, grain_time_step(g));
     return time_step_share() * smallest;
+}
+
+/// The same for the grains with a contact that has just closed.
+double SoftDiscSolver::disturbed_time_step_limit() {
+    if (has_potential()) resist_disturbed();
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const std::size_t g : disturbed_) smallest = std::min(smallest, grain_time_step(g));
+    return time_step_share() * smallest;
+}
+
+/// Resistances at all contacts of the disturbed grains, on both sides.
+void SoftDiscSolver::resist_disturbed() {
+    resistance_.resize(contacts_);
+    std::vector<std::size_t> grain;
+    for (const std::size_t g : disturbed_) {
+        grain.push_back(g);
+        contact_view().each_side_of(g, [&](const Side& side) {
+            if (!side.wall()) grain.push_back(static_cast<std::size_t>(side.other));
+        });
+    }
+    for (std::size_t begin = 0; begin < grain.size(); begin += grains_per_block)
+        find_resistances(grains_, contacts_, pressures_.inflated, resistance_,
+                         std::span(grain).subspan(begin, std::min(grain.size() - begin, grains_per_block)));
 }
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4
@@ -33,19 +69,6 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     const GrainMaterial& material = grains_.material_of(g);
     const double m = grain.mass;
-    // d(beta dU/d(beta S))/dS of one grain, the other contacts as they are.
-    const auto resistance = [&](std::size_t grain_index, double share, double lens) {
-        const GrainMaterial& o = grains_.material_of(grain_index);
-        const Inflated& in = pressures_.inflated[grain_index];
-        const LensPotential::Overlap overlap = LensPotential::overlap(share * lens * in.per_area);
-        const LensPotential::Inflation inflation{0.0, in.at_q0, in.at_q1, in.at_q1_squared};
-        const double slope = inflation.slope(overlap);
-        const double bulk = LensPotential::bulk_stiffness(o.mu, o.kappa) * slope * slope;
-        const double bending = in.pressure * LensPotential::curvature(overlap, inflation);
-        return share * share *
-               (bulk / grains_.grain[grain_index].reference_area() +
-                in.per_area * (0.5 * o.plane_E / overlap.r + std::abs(bending)));
-    };
     double stiffness = 0.0, viscosity = 0.0;
     contact_view().each_side_of(g, [&](const Side& side) {
         const auto other = static_cast<std::size_t>(side.wall() ? 0 : side.other);
@@ -58,11 +81,11 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
         const double k_n = Mollon2022::stiffness(E, length, delta);
         viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
         if (has_potential()) {
-            const double lens = side.contact.lens();
-            double against = resistance(g, side.share, lens);
-            if (!side.wall()) against += resistance(other, 1.0 - side.share, lens);
+            const double against = side.wall()
+                                       ? resistance_.wall[side.index]
+                                       : resistance_.pair[side.index].i + resistance_.pair[side.index].j;
             // The chord grows with the root of the depth.
-            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * lens));
+            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * side.contact.lens()));
         } else {
             stiffness += part * k_n;
         }
