@@ -20,15 +20,6 @@ $softgrain compare scenarios/packing24/isotropic.toml --methods sdem --quiet --o
 cp "$out/packing24/stress.png" "$figures/packing24_stress.png"
 cp "$out/packing24/coordination.png" "$figures/packing24_coordination.png"
 
-echo "== sample A beside Eq. 69"
-$softgrain run scenarios/sample_a/isotropic.toml --method sdem --quiet --out "$out/sample_a/sdem"
-awk -f scenarios/sample_a/eq69.awk "$out/sample_a/sdem/history.csv" >"$out/eq69.csv"
-head -1 "$out/eq69.csv"
-cp "$out/sample_a/sdem/run.json" "$out/sample_a_run.json"
-$softgrain compare scenarios/sample_a/isotropic.toml --methods sdem --quiet --resume --out "$out/sample_a" \
-    --reference "$out/eq69.csv" --at 0.86,0.88,0.90,0.92,0.94,0.96,0.97
-cp "$out/sample_a/stress.png" "$figures/sample_a_stress.png"
-
 echo "== one grain between four walls"
 series=""
 colour=0
