@@ -385,6 +385,20 @@ void SoftDiscSolver::throw_bad_pair(const BadPair& bad) const {
     throw DivergedError(i, "contact", time_, fmt::format("with grain {}: {}", j, why()));
 }
 
+LensPotential::Sums SoftDiscSolver::overlaps(std::size_t g) const {
+    const Grain& grain = grains_.grain[g];
+    const double area = grain.reference_area() * grain.F.det();
+    LensPotential::Sums sums;
+    contact_view().each_side_of(
+        g, [&](const Side& side) { sums.add(LensPotential::overlap(side.gives_way() / area)); });
+    return sums;
+}
+
+double SoftDiscSolver::area_ratio(std::size_t g, const LensPotential::Sums& contacts) const {
+    return grains_.grain[g].F.det() *
+           (1.0 - LensPotential::inflation(contacts, grains_.material_of(g).bulge).G);
+}
+
 double SoftDiscSolver::potential_energy() const {
     double sum = 0.0;
     for (std::size_t g = 0; g < size(); ++g) {
@@ -392,11 +406,8 @@ double SoftDiscSolver::potential_energy() const {
         const GrainMaterial& m = grains_.material_of(g);
         const double area = grain.reference_area();
         const double J = grain.F.det();
-        LensPotential::Sums contacts;
-        contact_view().each_side_of(g, [&](const Side& side) {
-            contacts.add(LensPotential::overlap(side.gives_way() / (area * J)));
-        });
-        const double ratio = J * (1.0 - LensPotential::inflation(contacts, m.bulge).G);
+        const LensPotential::Sums contacts = overlaps(g);
+        const double ratio = area_ratio(g, contacts);
         double density = LensPotential::contact_energy(m.plane_E, J, contacts);
         if (options_.motion.grain_law == GrainLaw::linear) {
             const double d = half_stretch_difference(grain.F);

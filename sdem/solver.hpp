@@ -8,6 +8,7 @@
 #include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
 #include "sdem/grain_motion.hpp"
+#include "sdem/laws/lens_potential.hpp"
 #include "sdem/pressures.hpp"
 #include "sdem/sliding.hpp"
 
@@ -92,6 +93,9 @@ class SoftDiscSolver : public Solver {
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
+    /// Overlaps that grain g gives way to, and its area ratio Je under them; lens potential only.
+    LensPotential::Sums overlaps(std::size_t g) const;
+    double area_ratio(std::size_t g, const LensPotential::Sums& contacts) const;
     /// Throws DivergedError if energy has come from nowhere since the last call.
     void watch_energy();
 
@@ -124,7 +128,7 @@ class SoftDiscSolver : public Solver {
     struct ViewData {
         std::vector<Vec2> center, velocity;
         std::vector<double> mass, reference_area;
-        std::vector<double> area, strain_1, strain_2, cap_fraction, covered_outline, F, radius,
+        std::vector<double> area, clipped_area, strain_1, strain_2, cap_fraction, covered_outline, F, radius,
             plastic_strain, grain_class;
         std::vector<GrainContact> contacts;
         std::vector<Mat2> stress;
