@@ -22,7 +22,8 @@ bool same_bits(const Checkpoint& a, const Checkpoint& b) {
     for (const auto& [name, values] : a.numbers) {
         const auto other = b.numbers.find(name);
         if (other == b.numbers.end() || other->second.size() != values.size()) return false;
-        if (std::memcmp(values.data(), other->second.data(), values.size() * sizeof(double)) != 0)
+        if (!values.empty() &&
+            std::memcmp(values.data(), other->second.data(), values.size() * sizeof(double)) != 0)
             return false;
     }
     return true;
