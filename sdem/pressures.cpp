@@ -53,18 +53,17 @@ int gather(OverlapRow* rows, std::size_t l, const ContactList& list, SideValues&
     return count;
 }
 
-/// Grains with all their contacts, whose answers are to go to `values`; grain_at(lane).
-template <class GrainAt>
+/// The grains [begin, end) with all their contacts, whose answers are to go to `values`.
 PressureBlock& load(Workspace& space, const Grains& grains, const ContactList& list, SideValues& values,
-                    std::size_t count, const GrainAt& grain_at) {
+                    std::size_t begin, std::size_t end) {
     PressureBlock& block = space.block;
     std::size_t most = 0;
-    for (std::size_t l = 0; l < count; ++l) most = std::max(most, candidates_of(list, grain_at(l)));
+    for (std::size_t g = begin; g < end; ++g) most = std::max(most, candidates_of(list, g));
     space.make_room(most + 1);  // the last candidate of a full grain is tried there
-    block.count = static_cast<int>(count);
+    block.count = static_cast<int>(end - begin);
     std::fill(std::begin(block.rows), std::end(block.rows), 0);
-    for (std::size_t l = 0; l < count; ++l) {
-        const std::size_t g = grain_at(l);
+    for (std::size_t g = begin; g < end; ++g) {
+        const std::size_t l = g - begin;
         const Grain& grain = grains.grain[g];
         const GrainMaterial& material = grains.material_of(g);
         block.det[l] = grain.F.det();
@@ -76,10 +75,8 @@ PressureBlock& load(Workspace& space, const Grains& grains, const ContactList& l
         int& rows = block.rows[l / PressureBlock::group];
         rows = std::max(rows, gather(block.row, l, list, values, g));
     }
-    for (std::size_t l = count; l % PressureBlock::group != 0; ++l) {  // a group has no end of its own
-        block.det[l] = block.area[l] = 1.0;
-        block.mu[l] = block.kappa[l] = block.plane_E[l] = block.bulge[l] = 0.0;
-    }
+    // A group has no end of its own.
+    for (std::size_t l = end - begin; l % PressureBlock::group != 0; ++l) block.per_area[l] = 0.0;
     return block;
 }
 
@@ -102,8 +99,7 @@ void scatter(Workspace& space) {
 std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, const ContactList& list,
                            Pressures& pressures, std::size_t begin, std::size_t end) {
     Workspace& space = workspace();
-    PressureBlock& block =
-        load(space, grains, list, pressures.push, end - begin, [=](std::size_t l) { return begin + l; });
+    PressureBlock& block = load(space, grains, list, pressures.push, begin, end);
     find_pressures(block, law);
     scatter(space);
     std::size_t bad = grains.size();
@@ -118,20 +114,26 @@ std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, 
 }
 
 void find_resistances(const Grains& grains, const ContactList& list, std::span<const Inflated> inflated,
-                      SideValues& resistance, std::span<const std::size_t> which) {
+                      SideValues& resistance, std::size_t begin, std::size_t end) {
     Workspace& space = workspace();
-    PressureBlock& block =
-        load(space, grains, list, resistance, which.size(), [=](std::size_t l) { return which[l]; });
-    for (std::size_t l = 0; l < which.size(); ++l) {
-        const Inflated& grain = inflated[which[l]];
-        block.pressure[l] = grain.pressure;
-        block.per_area[l] = grain.per_area;
-        block.at_q0[l] = grain.at_q0;
-        block.at_q1[l] = grain.at_q1;
-        block.at_q1_squared[l] = grain.at_q1_squared;
+    PressureBlock& block = load(space, grains, list, resistance, begin, end);
+    for (std::size_t g = begin; g < end; ++g) {
+        const std::size_t l = g - begin;
+        block.pressure[l] = inflated[g].pressure;
+        block.per_area[l] = inflated[g].per_area;
+        block.at_q0[l] = inflated[g].at_q0;
+        block.at_q1[l] = inflated[g].at_q1;
+        block.at_q1_squared[l] = inflated[g].at_q1_squared;
     }
     find_resistances(block);
     scatter(space);
+}
+
+double resistance_of(const Grains& grains, std::span<const Inflated> inflated, std::size_t g,
+                     double overlap) {
+    const GrainMaterial& material = grains.material_of(g);
+    return resistance(inflated[g], overlap, grains.grain[g].reference_area(), material.plane_E,
+                      LensPotential::bulk_stiffness(material.mu, material.kappa));
 }
 
 void find_pair_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end) {

@@ -34,10 +34,12 @@ struct Pressures {
 std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, const ContactList& list,
                            Pressures& pressures, std::size_t begin, std::size_t end);
 
-/// Resistances of these grains, at most grains_per_block, against more overlap at each contact: dpush/d(beta
-/// S), a bound [N/m^3].
+/// Resistances of the grains [begin, end), at most grains_per_block, against more overlap at each contact:
+/// dpush/d(beta S), a bound [N/m^3].
 void find_resistances(const Grains& grains, const ContactList& list, std::span<const Inflated> inflated,
-                      SideValues& resistance, std::span<const std::size_t> which);
+                      SideValues& resistance, std::size_t begin, std::size_t end);
+/// The same at one contact with this overlap beta S > 0 [m^2].
+double resistance_of(const Grains& grains, std::span<const Inflated> inflated, std::size_t g, double overlap);
 
 /// Elastic forces of the pairs [begin, end), or of all walls, from the pushes of both sides.
 void find_pair_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end);

@@ -181,7 +181,7 @@ void SoftDiscSolver::rebuild_contacts() {
 
 void SoftDiscSolver::update_contacts(double dt) {
     guess_before_ = contacts_.guess;
-    disturbed_.clear();
+    closed_pairs_.clear();
     evaluate_all_pairs();
     evaluate_all_walls();
     if (has_potential()) find_all_pressures();
@@ -224,17 +224,14 @@ void SoftDiscSolver::evaluate_all_pairs() {
     }
     for (const PairNews& n : news) {
         if (n.bad.pair < pairs) throw_bad_pair(n.bad);
-        for (const std::size_t k : n.closed)
-            for (const int g : {contacts_.pairs()[k].i, contacts_.pairs()[k].j})
-                disturbed_.push_back(static_cast<std::size_t>(g));
+        closed_pairs_.insert(closed_pairs_.end(), n.closed.begin(), n.closed.end());
     }
 }
 
 void SoftDiscSolver::evaluate_all_walls() {
     const WallNews news =
         evaluate_walls({grains_, cell(), options_.motion.contact_law, options_.contact_damping}, contacts_);
-    for (const std::size_t k : news.closed)
-        disturbed_.push_back(static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+    closed_walls_ = news.closed;
     if (news.bad < contacts_.wall_pairs().size())
         throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[news.bad].grain)),
                             "wall contact", time_,

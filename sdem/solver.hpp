@@ -88,7 +88,20 @@ class SoftDiscSolver : public Solver {
     double time_step_share() const;
     void limit_time_step(double dt);
     double disturbed_time_step_limit();
-    void resist_disturbed();
+    /// What contacts do to the largest stable step of a grain.
+    struct Restraint {
+        double stiffness = 0.0;  ///< [N/m]
+        double viscosity = 0.0;  ///< [kg/s]
+
+        void add(const Restraint& other) {
+            stiffness += other.stiffness;
+            viscosity += other.viscosity;
+        }
+    };
+    Restraint pair_restraint(std::size_t k, double resistance_i, double resistance_j) const;
+    Restraint wall_restraint(std::size_t w, double resistance) const;
+    Restraint restraint_of(const Contact& c, double resistance, double part, double E,
+                           double reduced_mass) const;
     double grain_time_step(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
@@ -111,9 +124,10 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
-    double time_step_ = 0.0;              ///< [s] found every few steps
-    SideValues resistance_;               ///< of the grains against more overlap
-    std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
+    double time_step_ = 0.0;            ///< [s] found every few steps
+    SideValues resistance_;             ///< of the grains against more overlap
+    std::vector<Restraint> restraint_;  ///< [n] when last looked at, and of all contacts closed since
+    std::vector<std::size_t> closed_pairs_, closed_walls_;  ///< in the last step
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
     struct Balance {
