@@ -98,11 +98,11 @@ class SoftDiscSolver : public Solver {
             viscosity += other.viscosity;
         }
     };
+    double grain_time_step(std::size_t g, const Restraint& contacts) const;
     Restraint pair_restraint(std::size_t k, double resistance_i, double resistance_j) const;
     Restraint wall_restraint(std::size_t w, double resistance) const;
     Restraint restraint_of(const Contact& c, double resistance, double part, double E,
                            double reduced_mass) const;
-    double grain_time_step(std::size_t g) const;
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
@@ -124,10 +124,10 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
-    double time_step_ = 0.0;            ///< [s] found every few steps
-    SideValues resistance_;             ///< of the grains against more overlap
-    std::vector<Restraint> restraint_;  ///< [n] when last looked at, and of all contacts closed since
-    std::vector<std::size_t> closed_pairs_, closed_walls_;  ///< in the last step
+    double time_step_ = 0.0;                                ///< [s] found every few steps
+    SideValues resistance_;                                 ///< of the grains against more overlap
+    std::vector<Restraint> restraint_;                      ///< [n] when last looked at
+    std::vector<std::size_t> closed_pairs_, closed_walls_;  ///< in this step
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
     struct Balance {

@@ -42,20 +42,22 @@ double SoftDiscSolver::time_step_limit() {
                 sum.add(pair_restraint(k, resistance_.pair[k].i, resistance_.pair[k].j));
         });
         restraint_[g] = sum;
-        smallest = std::min(smallest, grain_time_step(g));
+        smallest = std::min(smallest, grain_time_step(g, sum));
     }
     return time_step_share() * smallest;
 }
 
-/// The same for the grains with a contact that has just closed, which it adds to what was last known of them.
+/// The same for the grains with a contact that has just closed, which adds to what was last known of them.
+/// Not kept: a contact that chatters would count again and again.
 double SoftDiscSolver::disturbed_time_step_limit() {
     double smallest = std::numeric_limits<double>::infinity();
     const auto resistance = [&](std::size_t g, double lens, double share) {
         return has_potential() ? resistance_of(grains_, pressures_.inflated, g, share * lens) : 0.0;
     };
     const auto restrain = [&](std::size_t g, const Restraint& fresh) {
-        restraint_[g].add(fresh);
-        smallest = std::min(smallest, grain_time_step(g));
+        Restraint sum = restraint_[g];
+        sum.add(fresh);
+        smallest = std::min(smallest, grain_time_step(g, sum));
     };
     for (const std::size_t k : closed_pairs_) {
         const auto i = static_cast<std::size_t>(contacts_.pairs()[k].i),
@@ -106,13 +108,12 @@ SoftDiscSolver::Restraint SoftDiscSolver::restraint_of(const Contact& c, double 
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4
 /// omega^2)) / omega^2. Every grain counts at least one contact that just closed.
-double SoftDiscSolver::grain_time_step(std::size_t g) const {
+double SoftDiscSolver::grain_time_step(std::size_t g, const Restraint& contacts) const {
     const MotionLaw& law = options_.motion;
     const bool rigid = law.kinematics == Kinematics::D2F0;
     const double f = rigid || law.imposes_area ? 1.0 : 2.0;
     const Grain& grain = grains_.grain[g];
     const GrainMaterial& material = grains_.material_of(g);
-    const Restraint& contacts = restraint_[g];
     const double stiffness =
         contacts.stiffness > 0.0 ? contacts.stiffness : Mollon2022::first_stiffness(material.E);
     const double bulk =
