@@ -5,19 +5,19 @@
 namespace softgrain::sdem {
 namespace {
 
-/// Lanes [from, to) of a block: as many rows as its fullest grain has contacts.
+/// One group of lanes from `from` on: as many rows as its fullest grain has contacts.
 template <GrainLaw law>
-SOFTGRAIN_INLINE void press(PressureBlock& b, int from, int to, int rows) {
+SOFTGRAIN_INLINE void press(PressureBlock& b, int from, int rows) {
     constexpr int group = PressureBlock::group;
     alignas(64) double base[group]{}, q0[group]{}, q1[group]{}, q1_squared[group]{}, local[group]{};
     alignas(64) double h_slope[group]{};  // sum h dG/dh
 #pragma omp simd
-    for (int l = from; l < to; ++l) b.per_area[l] = 1.0 / (b.area[l] * b.det[l]);
+    for (int m = 0; m < group; ++m) b.per_area[from + m] = 1.0 / (b.area[from + m] * b.det[from + m]);
     for (int k = 0; k < rows; ++k) {
         OverlapRow& row = b.row[k];
 #pragma omp simd
-        for (int l = from; l < to; ++l) {
-            const int m = l - from;
+        for (int m = 0; m < group; ++m) {
+            const int l = from + m;
             const LensPotential::Overlap o = LensPotential::overlap(row.overlap[l] * b.per_area[l]);
             row.r[l] = o.r;
             row.q1[l] = o.q1;
@@ -32,8 +32,8 @@ SOFTGRAIN_INLINE void press(PressureBlock& b, int from, int to, int rows) {
         }
     }
 #pragma omp simd
-    for (int l = from; l < to; ++l) {
-        const int m = l - from;
+    for (int m = 0; m < group; ++m) {
+        const int l = from + m;
         const LensPotential::Sums s{base[m], q0[m], q1[m], q1_squared[m], local[m]};
         const LensPotential::Inflation in = LensPotential::inflation(s, b.bulge[l]);
         const double left = 1.0 - in.G, area_ratio = b.det[l] * left;
@@ -52,16 +52,17 @@ SOFTGRAIN_INLINE void press(PressureBlock& b, int from, int to, int rows) {
     for (int k = 0; k < rows; ++k) {
         OverlapRow& row = b.row[k];
 #pragma omp simd
-        for (int l = from; l < to; ++l) {
+        for (int m = 0; m < group; ++m) {
+            const int l = from + m;
             const LensPotential::Inflation in{0.0, b.at_q0[l], b.at_q1[l], b.at_q1_squared[l]};
             const double slope = in.slope(row.base_slope[l], row.q0_slope[l], row.q1[l], row.q1_slope[l]);
-            h_slope[l - from] += row.overlap[l] * b.per_area[l] * slope;
-            row.answer[l] = row.share[l] * (b.pressure[l] * slope + b.plane_E[l] * row.r[l]);
+            h_slope[m] += row.overlap[l] * b.per_area[l] * slope;
+            row.answer[l] = b.pressure[l] * slope + b.plane_E[l] * row.r[l];
         }
     }
 #pragma omp simd
-    for (int l = from; l < to; ++l) {
-        const int m = l - from;
+    for (int m = 0; m < group; ++m) {
+        const int l = from + m;
         b.stress[l] = b.pressure[l] * (base[m] + h_slope[m]) + (1.0 / 3.0) * b.plane_E[l] * local[m];
     }
 }
@@ -69,8 +70,7 @@ SOFTGRAIN_INLINE void press(PressureBlock& b, int from, int to, int rows) {
 template <GrainLaw law>
 SOFTGRAIN_INLINE void press_all(PressureBlock& b) {
     constexpr int group = PressureBlock::group;
-    for (int from = 0; from < b.count; from += group)
-        press<law>(b, from, from + group < b.count ? from + group : b.count, b.rows[from / group]);
+    for (int from = 0; from < b.count; from += group) press<law>(b, from, b.rows[from / group]);
 }
 
 SOFTGRAIN_CLONES void press_neo_hookean(PressureBlock& block) {
@@ -88,7 +88,7 @@ SOFTGRAIN_CLONES void resist(PressureBlock& b) {
 #pragma omp simd
         for (int l = 0; l < b.count; ++l) {
             const Inflated grain{b.pressure[l], b.per_area[l], b.at_q0[l], b.at_q1[l], b.at_q1_squared[l]};
-            row.answer[l] = resistance(grain, row.overlap[l], row.share[l], b.area[l], b.plane_E[l],
+            row.answer[l] = resistance(grain, row.overlap[l], b.area[l], b.plane_E[l],
                                        LensPotential::bulk_stiffness(b.mu[l], b.kappa[l]));
         }
     }

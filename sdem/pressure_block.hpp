@@ -9,7 +9,6 @@ namespace softgrain::sdem {
 struct OverlapRow {
     using Lane = double[grains_per_block];
     alignas(64) Lane overlap;                                ///< beta S [m^2]
-    alignas(64) Lane share;                                  ///< beta
     alignas(64) double* to[grains_per_block];                ///< where the answer goes
     alignas(64) Lane r, q1, base_slope, q0_slope, q1_slope;  ///< between two loops
     alignas(64) Lane answer;
@@ -21,19 +20,18 @@ struct Inflated {
     double at_q0, at_q1, at_q1_squared;  ///< see LensPotential::Inflation
 };
 
-/// Derivative by S of a side's push beta dU/d(beta S), a bound [N/m^3]; overlap: beta S > 0 [m^2], bulk: of
-/// u''.
-SOFTGRAIN_INLINE double resistance(const Inflated& grain, double overlap, double share, double area,
-                                   double plane_E, double bulk) {
+/// Derivative of a side's push by its overlap, a bound [N/m^3]; overlap: beta S > 0 [m^2], bulk: of u''.
+SOFTGRAIN_INLINE double resistance(const Inflated& grain, double overlap, double area, double plane_E,
+                                   double bulk) {
     const LensPotential::Overlap o = LensPotential::overlap(overlap * grain.per_area);
     const LensPotential::Inflation in{0.0, grain.at_q0, grain.at_q1, grain.at_q1_squared};
     const double slope = in.slope(o), bending = std::abs(grain.pressure * LensPotential::curvature(o, in));
-    return share * share * (bulk * slope * slope / area + grain.per_area * (0.5 * plane_E / o.r + bending));
+    return bulk * slope * slope / area + grain.per_area * (0.5 * plane_E / o.r + bending);
 }
 
 struct PressureBlock {
     using Lane = double[grains_per_block];
-    static constexpr int group = 16;  ///< lanes that share their number of rows
+    static constexpr int group = 8;  ///< lanes that share their number of rows
     static constexpr int groups = static_cast<int>(grains_per_block) / group;
     int count, rows[groups];
     OverlapRow* row;  ///< [largest of rows]
@@ -43,8 +41,7 @@ struct PressureBlock {
     alignas(64) Lane pressure, per_area, at_q0, at_q1, at_q1_squared;
 };
 
-/// From overlaps to pressures; the answers are beta dU/d(beta S), the push of each side per chord length
-/// [N/m].
+/// From overlaps to pressures; the answers are dU/d(beta S), the push of each side [N/m].
 void find_pressures(PressureBlock& block, GrainLaw law);
 /// From overlaps and what pressure made of them; the answers are resistances.
 void find_resistances(PressureBlock& block);

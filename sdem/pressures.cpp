@@ -41,7 +41,6 @@ int gather(OverlapRow* rows, std::size_t l, const ContactList& list, SideValues&
     const auto put = [&](const Contact& c, double share, double* to) {
         OverlapRow& row = rows[count];
         row.overlap[l] = share * c.lens();
-        row.share[l] = share;
         row.to[l] = to;
         count += c.touching() ? 1 : 0;
     };
@@ -76,6 +75,10 @@ PressureBlock& load(Workspace& space, const Grains& grains, const ContactList& l
         block.bulge[l] = material.bulge;
         int& rows = block.rows[l / PressureBlock::group];
         rows = std::max(rows, gather(block.row, l, list, values, g));
+    }
+    for (std::size_t l = count; l % PressureBlock::group != 0; ++l) {  // a group has no end of its own
+        block.det[l] = block.area[l] = 1.0;
+        block.mu[l] = block.kappa[l] = block.plane_E[l] = block.bulge[l] = 0.0;
     }
     return block;
 }
@@ -134,7 +137,8 @@ void find_resistances(const Grains& grains, const ContactList& list, std::span<c
 void find_pair_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
         Contact& c = list.pair_contact[k];
-        c.q = c.touching() ? push.pair[k].i + push.pair[k].j : 0.0;
+        const double share = list.share[k];
+        c.q = c.touching() ? share * push.pair[k].i + (1.0 - share) * push.pair[k].j : 0.0;
     }
 }
 

@@ -26,7 +26,7 @@ struct SideValues {
 struct Pressures {
     std::vector<double> stress;      ///< [n] P: part of a grain's stress along the cofactor of F [N/m]
     std::vector<Inflated> inflated;  ///< [n]
-    SideValues push;                 ///< force of one side per chord length [N/m]
+    SideValues push;                 ///< dU/d(beta S) of one side [N/m]
 };
 
 /// Pressures of the grains [begin, end), at most grains_per_block; the first grain whose area ratio Je is not
@@ -34,7 +34,8 @@ struct Pressures {
 std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, const ContactList& list,
                            Pressures& pressures, std::size_t begin, std::size_t end);
 
-/// Resistances of these grains, at most grains_per_block, against more overlap at each contact [N/m^3].
+/// Resistances of these grains, at most grains_per_block, against more overlap at each contact: dpush/d(beta
+/// S), a bound [N/m^3].
 void find_resistances(const Grains& grains, const ContactList& list, std::span<const Inflated> inflated,
                       SideValues& resistance, std::span<const std::size_t> which);
 

@@ -81,9 +81,10 @@ double SoftDiscSolver::grain_time_step(std::size_t g) const {
         const double k_n = Mollon2022::stiffness(E, length, delta);
         viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
         if (has_potential()) {
-            const double against = side.wall()
-                                       ? resistance_.wall[side.index]
-                                       : resistance_.pair[side.index].i + resistance_.pair[side.index].j;
+            const double share_i = side.second ? 1.0 - side.share : side.share, share_j = 1.0 - share_i;
+            const double against = side.wall() ? resistance_.wall[side.index]
+                                               : share_i * share_i * resistance_.pair[side.index].i +
+                                                     share_j * share_j * resistance_.pair[side.index].j;
             // The chord grows with the root of the depth.
             stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * side.contact.lens()));
         } else {
