@@ -164,10 +164,11 @@ TEST_P(FullCoverage, APackingIsCompressedUntilItsGrainsFillMoreThanTheBox) {
         const double now = v.wall_force[1].x() / v.box.height();
         EXPECT_GT(now, 0.98 * stress);
         stress = now;
-        EXPECT_LE(covered, 1.0 + 1e-9);
+        EXPECT_LE(covered, fraction);  // the law squeezes material, it makes none
     }
     solver->check_finite();
-    EXPECT_GT(covered, 0.9);  // cut by chords; soft grains give way where they do not touch
+    // Soft grains give way; what can hardly be compressed fills all, and more once the box is smaller.
+    EXPECT_GT(covered, nu < 0.4 ? 0.9 : 0.999);
     RecordProperty("covered", fmt::format("{:.5f}", covered));
     RecordProperty("stress", fmt::format("{:.3f}", stress));
 }

@@ -135,7 +135,7 @@ TEST(View, ContactsAreSortedAndBalanced) {
         }
         EXPECT_NEAR(0.5 * twice, v.area[g], 4e-3 * v.area[g]);  // 64 nodes
     }
-    ASSERT_EQ(v.fields.size(), 6U);
+    ASSERT_EQ(v.fields.size(), 7U);
     for (const Field& f : v.fields) EXPECT_EQ(f.values.size(), 24U * static_cast<std::size_t>(f.components));
     EXPECT_FALSE(solver->outside_validity().has_value());
 }

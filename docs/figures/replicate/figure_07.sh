@@ -84,7 +84,7 @@ make_figure_07() {
             echo
         done; done
     } | table figure_07
-    row 7 "single_grain/four_walls.toml" "Eq. 57 follows the resolved force; at nu < 0.2 and large strain up to 15 % too low" \
+    row 7 "\`single_grain/four_walls.toml\`" "Eq. 57 follows the resolved force; at nu < 0.2 and large strain up to 15 % too low" \
         "Eq. 57 on our resolved grains at e = 0.25: $(at_quarter 0) (nu 0), $(at_quarter 0.2) (nu 0.2), $(at_quarter 0.4) (nu 0.4)" \
         figure_07c.png figure_07d.png figure_07_grain.png
 }

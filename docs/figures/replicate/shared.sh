@@ -34,7 +34,7 @@ band() {
         awk -v x="$x" -v y="$y" -v grid="$grid" -f $here/at.awk "$history" >"$table"
         files+=("$table")
     done
-    awk -f $here/band.awk "${files[@]}"
+    awk -f $here/band.awk "${files[@]}" </dev/null
 }
 
 # value FILE X COLUMN: of the row whose first column is X; empty if there is none.
@@ -86,5 +86,5 @@ table() {
 row() {
     local links="" picture
     for picture in "${@:5}"; do links+="${links:+, }[$picture](figures/mollon2022/$picture)"; done
-    echo "| $1 | \`$2\` | $3 | $4 | $links |" >>"$out/overview"
+    echo "| $1 | $2 | $3 | $4 | $links |" >>"$out/overview"
 }
