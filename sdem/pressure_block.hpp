@@ -20,7 +20,8 @@ struct Inflated {
     double at_q0, at_q1, at_q1_squared;  ///< see LensPotential::Inflation
 };
 
-/// Derivative of a side's push by its overlap, a bound [N/m^3]; overlap: beta S > 0 [m^2], bulk: of u''.
+/// Derivative of a side's push by its overlap, an estimate up to 20 % low [N/m^3]; overlap: beta S > 0 [m^2],
+/// bulk: of u''.
 SOFTGRAIN_INLINE double resistance(const Inflated& grain, double overlap, double area, double plane_E,
                                    double bulk) {
     const LensPotential::Overlap o = LensPotential::overlap(overlap * grain.per_area);

@@ -35,7 +35,7 @@ std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, 
                            Pressures& pressures, std::size_t begin, std::size_t end);
 
 /// Resistances of the grains [begin, end), at most grains_per_block, against more overlap at each contact:
-/// dpush/d(beta S), a bound [N/m^3].
+/// dpush/d(beta S), an estimate up to 20 % low [N/m^3].
 void find_resistances(const Grains& grains, const ContactList& list, std::span<const Inflated> inflated,
                       SideValues& resistance, std::size_t begin, std::size_t end);
 /// The same at one contact with this overlap beta S > 0 [m^2].

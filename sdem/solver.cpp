@@ -200,7 +200,7 @@ void SoftDiscSolver::limit_time_step(double dt) {
         const double limit = time_step_limit();
         if (limit < time_step_ || limit > worth_a_change * time_step_) time_step_ = limit;
     } else if (dt > 0.0) {
-        time_step_ = std::min(time_step_, disturbed_time_step_limit());
+        heed_closed_contacts();
     }
 }
 

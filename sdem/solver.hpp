@@ -87,7 +87,7 @@ class SoftDiscSolver : public Solver {
     void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
     double time_step_share() const;
     void limit_time_step(double dt);
-    double disturbed_time_step_limit();
+    void heed_closed_contacts();
     /// What contacts do to the largest stable step of a grain.
     struct Restraint {
         double stiffness = 0.0;  ///< [N/m]
@@ -99,6 +99,9 @@ class SoftDiscSolver : public Solver {
         }
     };
     double grain_time_step(std::size_t g, const Restraint& contacts) const;
+    double resistance(std::size_t g, double overlap) const;
+    Restraint pair_restraint(std::size_t k) const;
+    Restraint wall_restraint(std::size_t w) const;
     Restraint pair_restraint(std::size_t k, double resistance_i, double resistance_j) const;
     Restraint wall_restraint(std::size_t w, double resistance) const;
     Restraint restraint_of(const Contact& c, double resistance, double part, double E,

@@ -47,32 +47,42 @@ double SoftDiscSolver::time_step_limit() {
     return time_step_share() * smallest;
 }
 
-/// The same for the grains with a contact that has just closed, which adds to what was last known of them.
-/// Not kept: a contact that chatters would count again and again.
-double SoftDiscSolver::disturbed_time_step_limit() {
-    double smallest = std::numeric_limits<double>::infinity();
-    const auto resistance = [&](std::size_t g, double lens, double share) {
-        return has_potential() ? resistance_of(grains_, pressures_.inflated, g, share * lens) : 0.0;
-    };
-    const auto restrain = [&](std::size_t g, const Restraint& fresh) {
+/// Shortens the time step where a contact has just closed. Grains that may need it are told by what was last
+/// known of them, and then looked at afresh.
+void SoftDiscSolver::heed_closed_contacts() {
+    const auto heed = [&](std::size_t g, const Restraint& fresh) {
         Restraint sum = restraint_[g];
         sum.add(fresh);
-        smallest = std::min(smallest, grain_time_step(g, sum));
+        if (time_step_share() * grain_time_step(g, sum) >= time_step_) return;
+        sum = Restraint{};
+        contact_view().each_side_of(g, [&](const Side& side) {
+            sum.add(side.wall() ? wall_restraint(side.index) : pair_restraint(side.index));
+        });
+        restraint_[g] = sum;
+        time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g, sum));
     };
     for (const std::size_t k : closed_pairs_) {
-        const auto i = static_cast<std::size_t>(contacts_.pairs()[k].i),
-                   j = static_cast<std::size_t>(contacts_.pairs()[k].j);
-        const double lens = contacts_.pair_contact[k].lens(), share = contacts_.share[k];
-        const Restraint fresh =
-            pair_restraint(k, resistance(i, lens, share), resistance(j, lens, 1.0 - share));
-        restrain(i, fresh);
-        restrain(j, fresh);
+        const Restraint fresh = pair_restraint(k);
+        heed(static_cast<std::size_t>(contacts_.pairs()[k].i), fresh);
+        heed(static_cast<std::size_t>(contacts_.pairs()[k].j), fresh);
     }
-    for (const std::size_t w : closed_walls_) {
-        const auto g = static_cast<std::size_t>(contacts_.wall_pairs()[w].grain);
-        restrain(g, wall_restraint(w, resistance(g, contacts_.wall_contact[w].lens(), 1.0)));
-    }
-    return time_step_share() * smallest;
+    for (const std::size_t w : closed_walls_)
+        heed(static_cast<std::size_t>(contacts_.wall_pairs()[w].grain), wall_restraint(w));
+}
+
+double SoftDiscSolver::resistance(std::size_t g, double overlap) const {
+    return has_potential() ? resistance_of(grains_, pressures_.inflated, g, overlap) : 0.0;
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::pair_restraint(std::size_t k) const {
+    const double lens = contacts_.pair_contact[k].lens(), share = contacts_.share[k];
+    return pair_restraint(k, resistance(static_cast<std::size_t>(contacts_.pairs()[k].i), share * lens),
+                          resistance(static_cast<std::size_t>(contacts_.pairs()[k].j), (1.0 - share) * lens));
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::wall_restraint(std::size_t w) const {
+    return wall_restraint(w, resistance(static_cast<std::size_t>(contacts_.wall_pairs()[w].grain),
+                                        contacts_.wall_contact[w].lens()));
 }
 
 SoftDiscSolver::Restraint SoftDiscSolver::pair_restraint(std::size_t k, double resistance_i,
@@ -99,9 +109,10 @@ SoftDiscSolver::Restraint SoftDiscSolver::restraint_of(const Contact& c, double 
     const double length2 = c.length_squared(), length = std::sqrt(length2);
     const double delta = std::min(part * 1.5 * c.lens() / length, 0.25 * length);
     const double k_n = Mollon2022::stiffness(E, length, delta);
-    // The chord grows with the root of the depth.
-    double stiffness =
-        has_potential() ? length2 * (resistance + std::max(0.0, c.q) / (3.0 * c.lens())) : part * k_n;
+    double stiffness = part * k_n;
+    // The chord grows with the root of the depth. A shallow contact counts as what it soon will be.
+    if (has_potential())
+        stiffness = std::max(stiffness, length2 * (resistance + std::max(0.0, c.q) / (3.0 * c.lens())));
     if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * E;
     return {stiffness, part * options_.contact_damping * std::sqrt(k_n * reduced_mass)};
 }
