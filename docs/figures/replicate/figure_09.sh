@@ -11,7 +11,7 @@ make_figure_09() {
             "$runs/isotropic-$sample-lens_potential-0.3-1/history.csv" | awk -F, 'NR > 1 { printf "%s%.4f", sep, $2; sep = "," }')
         arguments=()
         for law in $laws; do arguments+=(--run "$law=$runs/isotropic-$sample-$law-0.3-1"); done
-        "$softgrain" render frames "${arguments[@]}" --at-phi "$phis_at" --range 0,0.4 --width 1800 --out "$made/pictures_$sample" >/dev/null
+        "$softgrain" render frames "${arguments[@]}" --at-phi "$phis_at" --range 0,0.4 --width 1300 --out "$made/pictures_$sample" >/dev/null
         mv "$made/pictures_$sample/sheet.png" "$made/figure_09_$sample.png"
         rm -r "$made/pictures_$sample"
         row_text+="${sample^^}: phi ${phis_at//,/, }. "

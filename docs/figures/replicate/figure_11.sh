@@ -13,7 +13,7 @@ plan_figure_11() { plan_oedometric; }
 make_figure_11() {
     local law arguments=()
     for law in $laws; do arguments+=(--run "$law=$runs/oedometric-b-$law-1"); done
-    "$softgrain" render frames "${arguments[@]}" --at 0,0.3,0.6,1 --range 0,0.4 --width 1800 --out "$made/pictures" >/dev/null
+    "$softgrain" render frames "${arguments[@]}" --at 0,0.3,0.6,1 --range 0,0.4 --width 1300 --out "$made/pictures" >/dev/null
     mv "$made/pictures/sheet.png" "$made/figure_11.png"
     rm -r "$made/pictures"
     row 11 "\`mollon2022/oedometric_b.toml\`" "grains keep a roughly circular shape, some are a little longer across the loading" \

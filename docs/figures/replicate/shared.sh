@@ -13,7 +13,7 @@ simulate() {
 run_the_plan() {
     sort -u "$out/plan" | while read -r name rest; do
         [ -e "$runs/$name/run.json" ] || echo "$name $rest"
-    done | xargs -P 2 -L 1 bash -c '
+    done | xargs -r -P 2 -L 1 bash -c '
         name=$3 scenario=$4
         "$1" run "scenarios/$scenario" --method sdem --threads 1 --quiet --force --out "$2/$name" "${@:5}" >"$2/$name.log" 2>&1 ||
             echo "  $name failed: $(tail -1 "$2/$name.log")"' replicate "$softgrain" "$runs"
