@@ -12,7 +12,7 @@ large_run() {
 
 make_ten_thousand() {
     local I name phi what few=()
-    ! $quick || few=(--set packing.count=1000)
+    ! $quick || few=(--set packing.count=300)
     for I in $slowness; do large_run large-$I --set loading.0.inertial_number=$I "${few[@]}"; done
     large_run large-quasi_static --set sdem.driver=quasi_static "${few[@]}"
     {
