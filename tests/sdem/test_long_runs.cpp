@@ -51,10 +51,10 @@ TEST(Conservation, EnergyOfAPeriodicPackingOver100000DefaultSteps) {
     const Gas gas(0.8, 0.01, 100000);
     RecordProperty("largest", fmt::format("{:.1e}", gas.error / gas.kinetic));
     RecordProperty("drift", fmt::format("{:.1e}", gas.drift()));
-    // The energy read off a leap-frog sways with (omega dt)^2, here by 0.12, about a mean that
-    // drifts by 0.01 to 0.2 with the steps that are chosen; SmallSteps... below is what a thousandth takes.
+    // The energy read off a leap-frog sways with (omega dt)^2, here by 0.12 to 0.2, about a mean that drifts
+    // slowly.
     EXPECT_LT(gas.error, 0.4 * gas.kinetic);
-    EXPECT_LT(gas.drift(), 0.3);
+    EXPECT_LT(gas.drift(), 0.3);  // measured 0.11 to 0.22, by the build; 0.003 with safety 0.7
     EXPECT_LT(gas.momentum_change.norm(), 1e-13);
 }
 
