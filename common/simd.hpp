@@ -1,8 +1,8 @@
 #pragma once
 // Functions compiled for several instruction sets, the best of which is chosen when the program starts.
 //
-// SOFTGRAIN_SIMD_LEVEL comes from the CMake option SOFTGRAIN_SIMD: 2 (auto) up to AVX-512, 1 (avx2) up to AVX2,
-// 0 (none, or sanitizers) one version only, as on other processors and compilers.
+// SOFTGRAIN_SIMD_LEVEL comes from the CMake option SOFTGRAIN_SIMD: 2 (auto) up to AVX-512, 1 (avx2) up to
+// AVX2, 0 (none, or sanitizers) one version only, as on other processors and compilers.
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
 #define SOFTGRAIN_CAN_CLONE 1

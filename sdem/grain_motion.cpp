@@ -105,8 +105,8 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
         if (in.law.imposes_area) memory.caps_before[g] = block.caps_before[l];
         if (in.law.plastic) keep_flow(block, memory, g, l);
         const bool near = block.moved[l] <= 0.25 * grain.radius * grain.radius;
-        const bool sound =
-            block.det[l] > smallest_area_ratio && block.reach[l] < std::numeric_limits<double>::infinity();
+        const bool sound = block.det[l] > smallest_area_ratio &&
+                           block.reach[l] <= largest_stretch * std::max(grain.a, grain.b);
         if (!near || !sound) bad = std::min(bad, g);
     }
     return work_of(block, in.law);

@@ -45,6 +45,8 @@ struct MotionInput {
 
 /// A grain whose det F is not above this counts as crushed.
 inline constexpr double smallest_area_ratio = 0.04;
+/// Largest half axis / undeformed one of a grain that has not come apart.
+inline constexpr double largest_stretch = 5.0;
 
 /// One step of the grains [begin, end), at most grains_per_block of them: velocities advance by `kick_time`,
 /// Eq. 58, then positions by `drift_time`, Eq. 59; they differ where the step changes. New centres go to

@@ -168,13 +168,20 @@ void SoftDiscSolver::rebuild_contacts() {
     double mean_radius = 0.0;
     for (const Grain& g : grains_.grain) mean_radius += g.radius / static_cast<double>(size());
     lattice_ = cell().box;
-    contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+    try {
+        contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+    } catch (const InputError& error) {
+        if (steps_ == 0) throw;
+        const auto largest = std::max_element(grains_.reach.begin(), grains_.reach.end());
+        throw DivergedError(packing_index(static_cast<std::size_t>(largest - grains_.reach.begin())), "F",
+                            time_, error.what());
+    }
     contacts_.find_shares(grains_);
 }
 
 void SoftDiscSolver::update_contacts(double dt) {
     guess_before_ = contacts_.guess;
-    disturbed_.clear();
+    closed_pairs_.clear();
     evaluate_all_pairs();
     evaluate_all_walls();
     if (has_potential()) find_all_pressures();
@@ -193,8 +200,7 @@ void SoftDiscSolver::limit_time_step(double dt) {
         const double limit = time_step_limit();
         if (limit < time_step_ || limit > worth_a_change * time_step_) time_step_ = limit;
     } else if (dt > 0.0) {
-        for (const std::size_t g : disturbed_)
-            time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g));
+        heed_closed_contacts();
     }
 }
 
@@ -218,17 +224,14 @@ void SoftDiscSolver::evaluate_all_pairs() {
     }
     for (const PairNews& n : news) {
         if (n.bad.pair < pairs) throw_bad_pair(n.bad);
-        for (const std::size_t k : n.closed)
-            for (const int g : {contacts_.pairs()[k].i, contacts_.pairs()[k].j})
-                disturbed_.push_back(static_cast<std::size_t>(g));
+        closed_pairs_.insert(closed_pairs_.end(), n.closed.begin(), n.closed.end());
     }
 }
 
 void SoftDiscSolver::evaluate_all_walls() {
     const WallNews news =
         evaluate_walls({grains_, cell(), options_.motion.contact_law, options_.contact_damping}, contacts_);
-    for (const std::size_t k : news.closed)
-        disturbed_.push_back(static_cast<std::size_t>(contacts_.wall_pairs()[k].grain));
+    closed_walls_ = news.closed;
     if (news.bad < contacts_.wall_pairs().size())
         throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[news.bad].grain)),
                             "wall contact", time_,
@@ -237,7 +240,7 @@ void SoftDiscSolver::evaluate_all_walls() {
 
 void SoftDiscSolver::find_all_pressures() {
     const std::size_t pairs = contacts_.pairs().size();
-    pressures_.push.resize(pairs);
+    pressures_.push.resize(contacts_);
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
@@ -252,8 +255,9 @@ void SoftDiscSolver::find_all_pressures() {
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t first = chunk * pairs_per_chunk;
-        find_forces(pressures_, contacts_, first, std::min(pairs, first + pairs_per_chunk));
+        find_pair_forces(pressures_.push, contacts_, first, std::min(pairs, first + pairs_per_chunk));
     }
+    find_wall_forces(pressures_.push, contacts_);
 }
 
 void SoftDiscSolver::slide(double dt) {
@@ -341,7 +345,8 @@ void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& w
 bool SoftDiscSolver::sound(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     return (grains_.center[g] - grains_.next_center[g]).squaredNorm() <= 0.25 * grain.radius * grain.radius &&
-           grain.F.det() > smallest_area_ratio && grains_.reach[g] < std::numeric_limits<double>::infinity();
+           grain.F.det() > smallest_area_ratio &&
+           grains_.reach[g] <= largest_stretch * std::max(grain.a, grain.b);
 }
 
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
@@ -351,6 +356,10 @@ void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
         throw DivergedError(
             packing_index(g), "position", time_,
             fmt::format("moved {:.3g} radii in one step; use a smaller sdem.safety", step / grain.radius));
+    if (grain.F.det() > smallest_area_ratio)
+        throw DivergedError(packing_index(g), "F", time_,
+                            fmt::format("the grain is stretched to {:.3g} of its undeformed size",
+                                        grains_.reach[g] / std::max(grain.a, grain.b)));
     throw DivergedError(packing_index(g), "det F", time_,
                         fmt::format("{:.3g}: the grain is crushed or inside out", grain.F.det()));
 }
@@ -373,6 +382,20 @@ void SoftDiscSolver::throw_bad_pair(const BadPair& bad) const {
     throw DivergedError(i, "contact", time_, fmt::format("with grain {}: {}", j, why()));
 }
 
+LensPotential::Sums SoftDiscSolver::overlaps(std::size_t g) const {
+    const Grain& grain = grains_.grain[g];
+    const double area = grain.reference_area() * grain.F.det();
+    LensPotential::Sums sums;
+    contact_view().each_side_of(
+        g, [&](const Side& side) { sums.add(LensPotential::overlap(side.gives_way() / area)); });
+    return sums;
+}
+
+double SoftDiscSolver::area_ratio(std::size_t g, const LensPotential::Sums& contacts) const {
+    return grains_.grain[g].F.det() *
+           (1.0 - LensPotential::inflation(contacts, grains_.material_of(g).bulge).G);
+}
+
 double SoftDiscSolver::potential_energy() const {
     double sum = 0.0;
     for (std::size_t g = 0; g < size(); ++g) {
@@ -380,11 +403,8 @@ double SoftDiscSolver::potential_energy() const {
         const GrainMaterial& m = grains_.material_of(g);
         const double area = grain.reference_area();
         const double J = grain.F.det();
-        LensPotential::Sums contacts;
-        contact_view().each_side_of(g, [&](const Side& side) {
-            contacts.add(LensPotential::overlap(side.gives_way() / (area * J)));
-        });
-        const double ratio = J * (1.0 - LensPotential::inflation(contacts, m.bulge).G);
+        const LensPotential::Sums contacts = overlaps(g);
+        const double ratio = area_ratio(g, contacts);
         double density = LensPotential::contact_energy(m.plane_E, J, contacts);
         if (options_.motion.grain_law == GrainLaw::linear) {
             const double d = half_stretch_difference(grain.F);

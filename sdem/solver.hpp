@@ -8,6 +8,7 @@
 #include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
 #include "sdem/grain_motion.hpp"
+#include "sdem/laws/lens_potential.hpp"
 #include "sdem/pressures.hpp"
 #include "sdem/sliding.hpp"
 
@@ -47,7 +48,7 @@ class SoftDiscSolver : public Solver {
     /// False if the grain has moved by more than half its radius from next_center, is crushed or inside out.
     bool sound(std::size_t g) const;
     void throw_bad_grain(std::size_t g) const;
-    double time_step_limit() const;
+    double time_step_limit();
     double potential_energy() const;
     bool threads_pay_off() const { return size() >= 800; }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
@@ -86,10 +87,31 @@ class SoftDiscSolver : public Solver {
     void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
     double time_step_share() const;
     void limit_time_step(double dt);
-    double grain_time_step(std::size_t g) const;
+    void heed_closed_contacts();
+    /// What contacts do to the largest stable step of a grain.
+    struct Restraint {
+        double stiffness = 0.0;  ///< [N/m]
+        double viscosity = 0.0;  ///< [kg/s]
+
+        void add(const Restraint& other) {
+            stiffness += other.stiffness;
+            viscosity += other.viscosity;
+        }
+    };
+    double grain_time_step(std::size_t g, const Restraint& contacts) const;
+    double resistance(std::size_t g, double overlap) const;
+    Restraint pair_restraint(std::size_t k) const;
+    Restraint wall_restraint(std::size_t w) const;
+    Restraint pair_restraint(std::size_t k, double resistance_i, double resistance_j) const;
+    Restraint wall_restraint(std::size_t w, double resistance) const;
+    Restraint restraint_of(const Contact& c, double resistance, double part, double E,
+                           double reduced_mass) const;
     void throw_bad_pair(const BadPair& bad) const;
 
     EnergyLedger energy() const;
+    /// Overlaps that grain g gives way to, and its area ratio Je under them; lens potential only.
+    LensPotential::Sums overlaps(std::size_t g) const;
+    double area_ratio(std::size_t g, const LensPotential::Sums& contacts) const;
     /// Throws DivergedError if energy has come from nowhere since the last call.
     void watch_energy();
 
@@ -105,8 +127,10 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
-    double time_step_ = 0.0;              ///< [s] found every few steps
-    std::vector<std::size_t> disturbed_;  ///< grains with a contact that has just closed
+    double time_step_ = 0.0;                                ///< [s] found every few steps
+    SideValues resistance_;                                 ///< of the grains against more overlap
+    std::vector<Restraint> restraint_;                      ///< [n] when last looked at
+    std::vector<std::size_t> closed_pairs_, closed_walls_;  ///< in this step
     long long steps_ = 0;
     std::vector<ChordGuess> guess_before_;  ///< [pairs] before the last evaluation
     struct Balance {
@@ -121,7 +145,7 @@ class SoftDiscSolver : public Solver {
     struct ViewData {
         std::vector<Vec2> center, velocity;
         std::vector<double> mass, reference_area;
-        std::vector<double> area, strain_1, strain_2, cap_fraction, covered_outline, F, radius,
+        std::vector<double> area, clipped_area, strain_1, strain_2, cap_fraction, covered_outline, F, radius,
             plastic_strain, grain_class;
         std::vector<GrainContact> contacts;
         std::vector<Mat2> stress;

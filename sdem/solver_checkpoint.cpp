@@ -80,6 +80,9 @@ void SoftDiscSolver::save(Checkpoint& to) const {
     for (const ChordGuess& guess : guess_before_)
         ends.insert(ends.end(), {guess.ax, guess.ay, guess.bx, guess.by});
     to.put("sdem.guess", std::vector<double>(ends.begin(), ends.end()));
+    std::vector<double> restraint;
+    for (const Restraint& r : restraint_) restraint.insert(restraint.end(), {r.stiffness, r.viscosity});
+    to.put("sdem.restraint", restraint);
     to.put("sdem.caps_before", memory_.caps_before);
     to.put("sdem.plastic_xx", memory_.plastic_xx);
     to.put("sdem.plastic_xy", memory_.plastic_xy);
@@ -131,6 +134,9 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         get_sized(from, "sdem.plastic_xy", n, memory_.plastic_xy);
         get_sized(from, "sdem.plastic_yy", n, memory_.plastic_yy);
     }
+    std::vector<double> restraint;
+    get_sized(from, "sdem.restraint", 2 * n, restraint);
+    for (std::size_t g = 0; g < n; ++g) restraint_[g] = {restraint[2 * g], restraint[2 * g + 1]};
     std::vector<double> energy;
     get_sized(from, "sdem.energy", 6, energy);
     ledger_ = EnergyLedger{};

@@ -17,63 +17,122 @@ double SoftDiscSolver::time_step_share() const {
     return options_.safety * delay;
 }
 
-double SoftDiscSolver::time_step_limit() const {
+double SoftDiscSolver::time_step_limit() {
+    if (has_potential()) {
+        resistance_.resize(contacts_);
+#pragma omp parallel for schedule(static) if (threads_pay_off())
+        for (std::size_t block = 0; block < blocks(); ++block) {
+            const std::size_t begin = block * grains_per_block;
+            find_resistances(grains_, contacts_, pressures_.inflated, resistance_, begin,
+                             std::min(size(), begin + grains_per_block));
+        }
+    }
+    restraint_.resize(size());
     double smallest = std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(min : smallest) if (threads_pay_off())
-    for (std::size_t g = 0; g < size(); ++g) smallest = std::min(smallest, grain_time_step(g));
+    for (std::size_t g = 0; g < size(); ++g) {
+        Restraint sum;
+        contact_view().each_side_of(g, [&](const Side& side) {
+            const std::size_t k = side.index;
+            if (!has_potential())
+                sum.add(side.wall() ? wall_restraint(k, 0.0) : pair_restraint(k, 0.0, 0.0));
+            else if (side.wall())
+                sum.add(wall_restraint(k, resistance_.wall[k]));
+            else
+                sum.add(pair_restraint(k, resistance_.pair[k].i, resistance_.pair[k].j));
+        });
+        restraint_[g] = sum;
+        smallest = std::min(smallest, grain_time_step(g, sum));
+    }
     return time_step_share() * smallest;
+}
+
+/// Shortens the time step where a contact has just closed. Grains that may need it are told by what was last
+/// known of them, and then looked at afresh.
+void SoftDiscSolver::heed_closed_contacts() {
+    const auto heed = [&](std::size_t g, const Restraint& fresh) {
+        Restraint sum = restraint_[g];
+        sum.add(fresh);
+        if (time_step_share() * grain_time_step(g, sum) >= time_step_) return;
+        sum = Restraint{};
+        contact_view().each_side_of(g, [&](const Side& side) {
+            sum.add(side.wall() ? wall_restraint(side.index) : pair_restraint(side.index));
+        });
+        restraint_[g] = sum;
+        time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g, sum));
+    };
+    for (const std::size_t k : closed_pairs_) {
+        const Restraint fresh = pair_restraint(k);
+        heed(static_cast<std::size_t>(contacts_.pairs()[k].i), fresh);
+        heed(static_cast<std::size_t>(contacts_.pairs()[k].j), fresh);
+    }
+    for (const std::size_t w : closed_walls_)
+        heed(static_cast<std::size_t>(contacts_.wall_pairs()[w].grain), wall_restraint(w));
+}
+
+double SoftDiscSolver::resistance(std::size_t g, double overlap) const {
+    return has_potential() ? resistance_of(grains_, pressures_.inflated, g, overlap) : 0.0;
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::pair_restraint(std::size_t k) const {
+    const double lens = contacts_.pair_contact[k].lens(), share = contacts_.share[k];
+    return pair_restraint(k, resistance(static_cast<std::size_t>(contacts_.pairs()[k].i), share * lens),
+                          resistance(static_cast<std::size_t>(contacts_.pairs()[k].j), (1.0 - share) * lens));
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::wall_restraint(std::size_t w) const {
+    return wall_restraint(w, resistance(static_cast<std::size_t>(contacts_.wall_pairs()[w].grain),
+                                        contacts_.wall_contact[w].lens()));
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::pair_restraint(std::size_t k, double resistance_i,
+                                                         double resistance_j) const {
+    const auto i = static_cast<std::size_t>(contacts_.pairs()[k].i),
+               j = static_cast<std::size_t>(contacts_.pairs()[k].j);
+    const double m_i = grains_.grain[i].mass, m_j = grains_.grain[j].mass;
+    const double share_i = contacts_.share[k], share_j = 1.0 - share_i;
+    return restraint_of(
+        contacts_.pair_contact[k], share_i * share_i * resistance_i + share_j * share_j * resistance_j, 0.5,
+        std::max(grains_.material_of(i).E, grains_.material_of(j).E), m_i * m_j / (m_i + m_j));
+}
+
+SoftDiscSolver::Restraint SoftDiscSolver::wall_restraint(std::size_t w, double resistance) const {
+    const auto g = static_cast<std::size_t>(contacts_.wall_pairs()[w].grain);
+    return restraint_of(contacts_.wall_contact[w], resistance, 1.0, grains_.material_of(g).E,
+                        grains_.grain[g].mass);
+}
+
+/// resistance: dq/dS, lens potential only; part: of the overlap that one side is.
+SoftDiscSolver::Restraint SoftDiscSolver::restraint_of(const Contact& c, double resistance, double part,
+                                                       double E, double reduced_mass) const {
+    // Half the depth of a shallow lens, or all of it at a wall: S = 2/3 L depth.
+    const double length2 = c.length_squared(), length = std::sqrt(length2);
+    const double delta = std::min(part * 1.5 * c.lens() / length, 0.25 * length);
+    const double k_n = Mollon2022::stiffness(E, length, delta);
+    double stiffness = part * k_n;
+    // The chord grows with the root of the depth. A shallow contact counts as what it soon will be.
+    if (has_potential())
+        stiffness = std::max(stiffness, length2 * (resistance + std::max(0.0, c.q) / (3.0 * c.lens())));
+    if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * E;
+    return {stiffness, part * options_.contact_damping * std::sqrt(k_n * reduced_mass)};
 }
 
 /// omega^2 = 2 f sum(k_sep)/m + 8 K/(rho b^2), and the same sum for damping C: dt = (-C + sqrt(C^2 + 4
 /// omega^2)) / omega^2. Every grain counts at least one contact that just closed.
-double SoftDiscSolver::grain_time_step(std::size_t g) const {
+double SoftDiscSolver::grain_time_step(std::size_t g, const Restraint& contacts) const {
     const MotionLaw& law = options_.motion;
     const bool rigid = law.kinematics == Kinematics::D2F0;
     const double f = rigid || law.imposes_area ? 1.0 : 2.0;
     const Grain& grain = grains_.grain[g];
     const GrainMaterial& material = grains_.material_of(g);
-    const double m = grain.mass;
-    // d(beta dU/d(beta S))/dS of one grain, the other contacts as they are.
-    const auto resistance = [&](std::size_t grain_index, double share, double lens) {
-        const GrainMaterial& o = grains_.material_of(grain_index);
-        const Inflated& in = pressures_.inflated[grain_index];
-        const LensPotential::Overlap overlap = LensPotential::overlap(share * lens * in.per_area);
-        const LensPotential::Inflation inflation{0.0, in.at_q0, in.at_q1, in.at_q1_squared};
-        const double slope = inflation.slope(overlap);
-        const double bulk = LensPotential::bulk_stiffness(o.mu, o.kappa) * slope * slope;
-        const double bending = in.pressure * LensPotential::curvature(overlap, inflation);
-        return share * share *
-               (bulk / grains_.grain[grain_index].reference_area() +
-                in.per_area * (0.5 * o.plane_E / overlap.r + std::abs(bending)));
-    };
-    double stiffness = 0.0, viscosity = 0.0;
-    contact_view().each_side_of(g, [&](const Side& side) {
-        const auto other = static_cast<std::size_t>(side.wall() ? 0 : side.other);
-        const double m_other = grains_.grain[other].mass;
-        const double reduced = side.wall() ? m : m * m_other / (m + m_other), part = side.wall() ? 1.0 : 0.5;
-        // Half the depth of a shallow lens, or all of it at a wall: S = 2/3 L depth.
-        const double length2 = side.contact.length_squared(), length = std::sqrt(length2);
-        const double delta = std::min(part * 1.5 * side.contact.lens() / length, 0.25 * length);
-        const double E = side.wall() ? material.E : std::max(material.E, grains_.material_of(other).E);
-        const double k_n = Mollon2022::stiffness(E, length, delta);
-        viscosity += part * options_.contact_damping * std::sqrt(k_n * reduced);
-        if (has_potential()) {
-            const double lens = side.contact.lens();
-            double against = resistance(g, side.share, lens);
-            if (!side.wall()) against += resistance(other, 1.0 - side.share, lens);
-            // The chord grows with the root of the depth.
-            stiffness += length2 * (against + std::max(0.0, side.contact.q) / (3.0 * lens));
-        } else {
-            stiffness += part * k_n;
-        }
-        if (options_.sliding.slides()) stiffness += options_.sliding.stiffness * E;
-    });
-    if (stiffness == 0.0) stiffness = Mollon2022::first_stiffness(material.E);
+    const double stiffness =
+        contacts.stiffness > 0.0 ? contacts.stiffness : Mollon2022::first_stiffness(material.E);
     const double bulk =
         rigid ? 0.0 : std::max(material.kappa / (1.0 + material.dilation_inertia), material.mu);
     const double smaller = std::min(grain.a, grain.b);
-    const double omega2 = 2.0 * f * stiffness / m + 8.0 * bulk / (material.density * smaller * smaller);
-    const double C = 2.0 * f * viscosity / m + material.shape_damping / grain.radius;
+    const double omega2 =
+        2.0 * f * stiffness / grain.mass + 8.0 * bulk / (material.density * smaller * smaller);
+    const double C = 2.0 * f * contacts.viscosity / grain.mass + material.shape_damping / grain.radius;
     return (std::sqrt(C * C + 4.0 * omega2) - C) / omega2;
 }
 

@@ -40,7 +40,8 @@ GrainView SoftDiscSolver::view(Need need) {
                     {"radius", "m", 1, view_.radius},
                     {"principal_strain_1", "1", 1, view_.strain_1},
                     {"principal_strain_2", "1", 1, view_.strain_2},
-                    {"cap_fraction", "1", 1, view_.cap_fraction}};
+                    {"cap_fraction", "1", 1, view_.cap_fraction},
+                    {"clipped_area", "m^2", 1, view_.clipped_area}};
         if (!has_potential()) v.fields.push_back({"covered_outline", "1", 1, view_.covered_outline});
         if (options_.motion.plastic) v.fields.push_back({"plastic_strain", "1", 1, view_.plastic_strain});
         if (!grains_.grain_class.empty()) v.fields.push_back({"grain_class", "1", 1, view_.grain_class});
@@ -76,13 +77,15 @@ std::vector<Cut> SoftDiscSolver::cuts_of(std::size_t g) const {
     return cuts;
 }
 
-/// Chords part two grains, so the areas left add up to the area covered, overlaps counted once.
+/// The lens potential knows what area a grain's material takes, A0 Je: what its caps displace bulges beside
+/// them. Else what the chords leave of the ellipse; chords part two grains, so that overlaps count once.
 void SoftDiscSolver::fill_areas() {
     view_.area.resize(size());
     view_.covered_area = 0.0;
     for (std::size_t p = 0; p < size(); ++p) {
         const std::size_t g = view_.place[p];
-        view_.area[p] = clipped_area(ellipse_of(grains_.grain[g]), cuts_of(g));
+        view_.area[p] = has_potential() ? grains_.grain[g].reference_area() * area_ratio(g, overlaps(g))
+                                        : clipped_area(ellipse_of(grains_.grain[g]), cuts_of(g));
         view_.covered_area += view_.area[p];
     }
 }
@@ -138,8 +141,9 @@ void SoftDiscSolver::fill_outlines() {
 void SoftDiscSolver::fill_fields() {
     const std::size_t n = size();
     view_.F.resize(4 * n);
-    for (auto* values : {&view_.radius, &view_.strain_1, &view_.strain_2, &view_.cap_fraction,
-                         &view_.covered_outline, &view_.plastic_strain, &view_.grain_class})
+    for (auto* values :
+         {&view_.clipped_area, &view_.radius, &view_.strain_1, &view_.strain_2, &view_.cap_fraction,
+          &view_.covered_outline, &view_.plastic_strain, &view_.grain_class})
         values->resize(n);
     for (std::size_t p = 0; p < n; ++p) {
         const std::size_t g = view_.place[p];
@@ -148,6 +152,7 @@ void SoftDiscSolver::fill_fields() {
         for (int k = 0; k < 4; ++k) view_.F[4 * p + static_cast<std::size_t>(k)] = F(k / 2, k % 2);
         const double middle = 0.5 * Polar(grain.F).trace - 1.0, d = half_stretch_difference(grain.F);
         const GrainSums sums = sum_contacts(forces(), g);
+        view_.clipped_area[p] = clipped_area(ellipse_of(grain), cuts_of(g));
         view_.radius[p] = grain.radius;
         view_.strain_1[p] = middle + d;
         view_.strain_2[p] = middle - d;

@@ -186,6 +186,19 @@ inline Chord finish(const Level& g, const Ellipse& i, const Ellipse& j, Unit a, 
     return c;
 }
 
+/// True if g has no root but a and b. About a, (1 + t^2)^2 g is a quartic in t, the tangent of half the angle
+/// turned; with both roots divided out a quadratic is left, which must have none.
+inline bool only_roots(const Level& g, Unit a, Unit b) {
+    const double px = g.xx * a.x + g.xy * a.y, py = g.yx * a.x + g.yy * a.y;  // B a
+    const double tx = g.xy * a.x - g.xx * a.y, ty = g.yy * a.x - g.yx * a.y;  // B turned a
+    const double nx = g.dx + px, ny = g.dy + py, fx = g.dx - px, fy = g.dy - py;
+    const double c2 = 4.0 * (tx * tx + ty * ty) + 2.0 * (nx * fx + ny * fy - 1.0);
+    const double c3 = 4.0 * (tx * fx + ty * fy), c4 = fx * fx + fy * fy - 1.0;
+    const double t = cross(a, b) / (1.0 + a.x * b.x + a.y * b.y);
+    const double linear = c3 + c4 * t, constant = c2 + linear * t;
+    return linear * linear < 4.0 * c4 * constant;
+}
+
 /// True if the centre of i is inside j and i is not larger than j: with no crossing, i is inside j.
 inline bool inside(const Ellipse& i, const Ellipse& j) {
     return i.det <= j.det && (j.inverse * (i.center - j.center)).squaredNorm() < 1.0;
@@ -203,22 +216,22 @@ inline Unit first_guess(const Level& g, const WarmStart& warm) {
 /// i is the unit circle.
 inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, WarmStart& warm) {
     const Level g(i, j);
-    if (!g.has_one_minimum()) return general_chord(g, i, j, warm);
+    const bool one_minimum = g.has_one_minimum();
 
-    // From the last chord: with one minimum there are two roots at most, and the sign of g' tells which is
-    // which.
+    // From the last chord. If there are only these two roots the sign of g' tells which is which.
     Unit a(warm.a), b(warm.b);
     const double last = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
     constexpr double smallest = 1e-3;
-    if (last > smallest && find_roots(g, a, b, last, 3) && g.slope(a) < 0.0 && g.slope(b) > 0.0) {
+    if (last > smallest && find_roots(g, a, b, last, 3) && g.slope(a) < 0.0 && g.slope(b) > 0.0 &&
+        (one_minimum || only_roots(g, a, b))) {
         warm = {a.vec(), b.vec()};
         return finish(g, i, j, a, b, Overlap::chord);
     }
-
     Unit u = first_guess(g, warm);
     if (!find_deepest(g, u)) return general_chord(g, i, j, warm);
-    warm = {u.vec(), u.vec()};
     const double lowest = g.value(u);
+    if (lowest >= 0.0 && !one_minimum) return general_chord(g, i, j, warm);  // another pocket may be deeper
+    warm = {u.vec(), u.vec()};
     if (lowest >= 0.0) return inside(i, j) ? Chord{Overlap::contained} : Chord{};
 
     // g ~ g_min + g'' (1 - cos psi) near its minimum gives the first guess of both roots.
@@ -226,7 +239,8 @@ inline Chord chord_from_circle(const Ellipse& i, const Ellipse& j, WarmStart& wa
     const double cos0 = 1.0 - versine, sin0 = std::sqrt(versine * (2.0 - versine));
     a = {u.x * cos0 + u.y * sin0, u.y * cos0 - u.x * sin0};
     b = {u.x * cos0 - u.y * sin0, u.y * cos0 + u.x * sin0};
-    if (!find_roots(g, a, b, sin0, 20) || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0))
+    if (!find_roots(g, a, b, sin0, 20) || !(cross(a, u) > 0.0) || !(cross(u, b) > 0.0) ||
+        (!one_minimum && !only_roots(g, a, b)))
         return general_chord(g, i, j, warm);
     warm = {a.vec(), b.vec()};
     return finish(g, i, j, a, b, Overlap::chord);

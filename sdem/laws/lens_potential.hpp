@@ -103,14 +103,17 @@ struct LensPotential {
     /// step.
     static SOFTGRAIN_INLINE double curvature(const Overlap& o, const Inflation& in) {
         const double R = o.r + r0, H0 = o.h + s0, H1 = o.h + s1;
-        const double rho = o.r / R, h_rho_slope = 0.5 * r0 * rho / R;
-        const double rho_slope = r0 / (2.0 * o.r * R * R);
-        const double change = r0 * (r0 - o.r) / (4.0 * o.r * R * R * R);  // of h_rho_slope
-        const auto second = [&](double s, double H) {
-            return (s * (rho_slope - 2.0 * rho / H) - h_rho_slope) / (H * H) + change / H;
+        const double inverse = 1.0 / (o.r * R * H0 * H1);
+        const double per_R = inverse * (o.r * H0 * H1), per_H0 = inverse * (o.r * R * H1),
+                     per_H1 = inverse * (o.r * R * H0);
+        const double rho = o.r * per_R, h_rho_slope = 0.5 * r0 * rho * per_R;
+        const double rho_slope = 0.5 * r0 * per_R * inverse * (H0 * H1);
+        const double change = 0.5 * (r0 - o.r) * per_R * rho_slope;  // of h_rho_slope
+        const auto second = [&](double s, double per_H) {
+            return per_H * (per_H * (s * (rho_slope - 2.0 * rho * per_H) - h_rho_slope) + change);
         };
-        return 2.0 * s0 * s0 / (H0 * H0 * H0) + in.at_q0 * second(s0, H0) +
-               (in.at_q1 + in.at_q1_squared * o.q1) * second(s1, H1) +
+        return 2.0 * (s0 * per_H0) * (s0 * per_H0) * per_H0 + in.at_q0 * second(s0, per_H0) +
+               (in.at_q1 + in.at_q1_squared * o.q1) * second(s1, per_H1) +
                in.at_q1_squared * o.q1_slope * o.q1_slope;
     }
 

@@ -309,14 +309,15 @@ TEST_F(CommandLine, CompareRunsEveryMethodFromOnePacking) {
 }
 
 TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
-    const fs::path out = folder / "friction";
-    const Outcome run = softgrain({"compare", small_scenario().string(), "--methods", "sdem,rigid_dem",
-                                   "--out", out.string(), "--no-pictures", "--set", "material.friction=0.3"});
+    const fs::path out = folder / "plastic";
+    const Outcome run =
+        softgrain({"compare", small_scenario().string(), "--methods", "sdem,rigid_dem", "--out", out.string(),
+                   "--no-pictures", "--set", "material.yield_stress=0.1"});
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.out.find("- sdem: cannot run this scenario: "), std::string::npos) << run.out;
-    EXPECT_NE(run.out.find("- rigid_dem: loading done"), std::string::npos) << run.out;
-    EXPECT_FALSE(fs::exists(out / "sdem"));
-    EXPECT_TRUE(fs::exists(out / "rigid_dem" / "history.csv"));
+    EXPECT_NE(run.out.find("- rigid_dem: cannot run this scenario: "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("- sdem: loading done"), std::string::npos) << run.out;
+    EXPECT_FALSE(fs::exists(out / "rigid_dem"));
+    EXPECT_TRUE(fs::exists(out / "sdem" / "history.csv"));
 }
 
 }  // namespace

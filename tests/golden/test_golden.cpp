@@ -110,7 +110,8 @@ TEST(Relation, SdemWithRigidKinematicsIsRigidDem) {
     const std::string text =
         "title = \"relation\"\n[packing]\ncount = 40\n[[loading]]\nkind = \"isotropic\"\ninertial_number = "
         "3e-4\n"
-        "until_strain = 0.006\n[sampling]\nstrain_interval = 0.001\n[sdem]\nkinematics = \"D2F0\"\n"
+        "until_strain = 0.006\n[sampling]\nstrain_interval = 0.001\n[sdem]\nlaw = \"mollon2022\"\nkinematics "
+        "= \"D2F0\"\n"
         "[rigid_dem]\nstiffness = " +
         std::to_string(1.0 / 0.58) + "\n";
     const Scenario scenario = parse_scenario(text, "relation.toml", {}, method_keys());

@@ -110,18 +110,19 @@ TEST(Cell, OneCellIsTheSameAsFourOfThem) {
 }
 
 TEST(Cell, ACrystalCarriedAlongStaysACrystal) {
-    // Isotropic compression of a perfect lattice: grains keep their places in the cell, forces balance.
-    auto solver = test::solver_for(undamped(), crystal(4, 4, 0.02));
-    const double dt = 0.1;
-    const std::vector<Vec2> start = crystal(4, 4, 0.02).center;
+    // Isotropic compression of a perfect lattice: grains keep their places in the cell, forces balance. Up to
+    // an overlap of 1 %: from about 1.5 % on the law's own energy is lower for unequal contacts.
+    auto solver = test::solver_for(undamped(), crystal(4, 4, 0.002));
+    const double dt = 0.02;
+    const std::vector<Vec2> start = crystal(4, 4, 0.002).center;
     const Box first = solver->view(Need::base).box;
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 1000; ++k) {
         const Box box = solver->view(Need::base).box;
-        solver->advance(WallMotion{box, {0.0, -1e-3 * first.width(), 0.0, -1e-3 * first.height()}}, dt);
+        solver->advance(WallMotion{box, {0.0, -4e-4 * first.width(), 0.0, -4e-4 * first.height()}}, dt);
     }
     const GrainView v = solver->view(Need::base);
     const Mat2 map = v.box.lattice() * first.lattice().inverse();
-    EXPECT_NEAR(map(0, 0), 0.98, 1e-12);
+    EXPECT_NEAR(map(0, 0), 0.992, 1e-12);
     for (std::size_t g = 0; g < v.size(); ++g)
         EXPECT_NEAR((v.centroid[g] - map * start[g]).norm(), 0.0, 1e-9) << g;
     const Mat2 stress = solver->cell_stress();

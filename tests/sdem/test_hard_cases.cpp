@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mixture.hpp"
-#include "sdem/laws/lens_potential.hpp"
+#include "unit_pair.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -12,23 +12,6 @@ Scenario undamped(double nu = 0.3) {
     Scenario s = test::default_scenario(nu);
     test::switch_off_damping(s);
     return s;
-}
-
-/// Force between two unit discs at this distance, nu = 0.3, by hand.
-double pair_force(double distance) {
-    const double nu = 0.3, mu = 1.0 / (2.0 + 2.0 * nu), kappa = 1.0 / (3.0 - 6.0 * nu);
-    const double stiffness = 0.5 / (1.0 - nu * nu);
-    // sin and cos of the half opening angle without cancellation at small overlaps.
-    const double overlap = 2.0 - distance, sine = std::sqrt(overlap * (1.0 - 0.25 * overlap));
-    const double half = std::asin(std::min(sine, 1.0));
-    const double cap = half > 0.02 ? half - sine * std::sqrt(1.0 - sine * sine)
-                                   : std::pow(half, 3) *
-                                         (2.0 / 3.0 - half * half * (2.0 / 15.0 - 4.0 / 315.0 * half * half));
-    const double share = cap / std::numbers::pi;
-    const auto inflation = LensPotential::inflation(share, LensPotential::bulge(nu));
-    const double p = LensPotential::pressure(1.0 - inflation.G, mu, kappa);
-    const ContactInput input{2.0 * sine, 0.5 * overlap, 0.0, share, share, stiffness, stiffness, 1.0, 1.0};
-    return 2.0 * sine * (LensPotential::contact(input, 0.0).q + p * inflation.slope);
 }
 
 TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
@@ -42,7 +25,8 @@ TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
         ASSERT_EQ(v.contacts.size(), 1U) << "overlap " << overlap;
         const double force = v.contacts[0].normal_force();
         // The overlap itself is known to the rounding of the centres: 2e-16 / overlap.
-        EXPECT_NEAR(force / pair_force(distance), 1.0, 1e-11 + 3e-15 / overlap) << "overlap " << overlap;
+        EXPECT_NEAR(force / test::unit_pair_force(overlap, 0.3), 1.0, 1e-8 + 3e-15 / overlap)
+            << "overlap " << overlap;
         EXPECT_GT(force, before);
         before = force;
     }
@@ -180,10 +164,11 @@ TEST_P(FullCoverage, APackingIsCompressedUntilItsGrainsFillMoreThanTheBox) {
         const double now = v.wall_force[1].x() / v.box.height();
         EXPECT_GT(now, 0.98 * stress);
         stress = now;
-        EXPECT_LE(covered, 1.0 + 1e-9);
+        EXPECT_LE(covered, fraction);  // the law squeezes material, it makes none
     }
     solver->check_finite();
-    EXPECT_GT(covered, 0.9);  // cut by chords; soft grains give way where they do not touch
+    // Soft grains give way; what can hardly be compressed fills all, and more once the box is smaller.
+    EXPECT_GT(covered, nu < 0.4 ? 0.9 : 0.999);
     RecordProperty("covered", fmt::format("{:.5f}", covered));
     RecordProperty("stress", fmt::format("{:.3f}", stress));
 }
@@ -258,6 +243,31 @@ TEST(Watchdog, CatchesAStepAboveTheLimit) {
                 DivergedError)
                 << "damping " << damping << " share " << share;
         }
+}
+
+TEST(HardCases, AGrainThatComesApartEndsTheRun) {
+    // Not an error of the input, even where such a grain no longer fits into a periodic cell.
+    for (bool periodic : {false, true}) {
+        Packing packing = test::packing24();
+        if (periodic)
+            packing.box.periodic = true;
+        else
+            packing = test::packing_of(test::far_away(), std::vector<Vec2>(8, Vec2::Zero()),
+                                       std::vector<double>(8, 1.0));
+        for (std::size_t g = 0; !periodic && g < 8; ++g)
+            packing.center[g].x() = 20.0 * (static_cast<double>(g) - 4.0);
+        auto solver = test::solver_for(undamped(), packing);
+        test::State state = test::state_of(*solver);
+        state.F_rate[7] << 20.0, 0.0, 0.0, 20.0;
+        test::set_state(*solver, state);
+        try {
+            for (int k = 0; k < 20; ++k) solver->advance(test::still(*solver), periodic ? 0.1 : 0.25);
+            FAIL() << "a grain grew without end";
+        } catch (const DivergedError& e) {
+            EXPECT_EQ(e.grain, 7);
+            EXPECT_EQ(e.quantity, "F");
+        }
+    }
 }
 
 TEST(HardCases, AMillionStepsAtRestChangeNothing) {

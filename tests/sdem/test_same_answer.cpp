@@ -21,7 +21,8 @@ bool same_bits(const Checkpoint& a, const Checkpoint& b) {
     for (const auto& [name, values] : a.numbers) {
         const auto other = b.numbers.find(name);
         if (other == b.numbers.end() || other->second.size() != values.size()) return false;
-        if (std::memcmp(values.data(), other->second.data(), values.size() * sizeof(double)) != 0)
+        if (!values.empty() &&
+            std::memcmp(values.data(), other->second.data(), values.size() * sizeof(double)) != 0)
             return false;
     }
     return true;
@@ -100,7 +101,7 @@ void stir(Solver& solver, double speed) {
 }
 
 TEST(Threads, AnyNumberGivesTheSameBits) {
-    const Packing packing = lattice(21);
+    const Packing packing = lattice(29);
     const int before = omp_get_max_threads();
     std::vector<Checkpoint> results;
     for (int threads : {1, 2, 3, 4}) {

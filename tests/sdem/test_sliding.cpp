@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "probe.hpp"
-#include "sdem/laws/lens_potential.hpp"
+#include "unit_pair.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -212,18 +211,10 @@ TEST(Cohesion, TwoGrainsHoldTogetherUntilTheyArePulledApart) {
     double largest = 0.0;
     for (double distance = 1.95; distance < 2.0; distance += 1e-4)
         largest = std::max(largest, pull_at(distance));
-    // Two unit discs by hand: half the overlap to each, s = S / (2 A0) with S the whole lens.
-    const double nu = 0.3, mu = 1.0 / (2.0 + 2.0 * nu), kappa = 1.0 / (3.0 - 6.0 * nu);
-    const double stiffness = 0.5 / (1.0 - nu * nu), chi = LensPotential::bulge(nu);
     double by_hand = 0.0;
     for (double distance = 1.95; distance < 2.0; distance += 1e-4) {
-        const double half = std::acos(0.5 * distance), L = 2.0 * std::sin(half);
-        const double share = (half - std::sin(half) * std::cos(half)) / std::numbers::pi;
-        const ContactInput input{L, 1.0 - 0.5 * distance, 0.0, share, share, stiffness, stiffness, 1.0, 1.0};
-        const auto inflation = LensPotential::inflation(share, chi);
-        const double p = LensPotential::pressure(1.0 - inflation.G, mu, kappa);
-        const double q = LensPotential::contact(input, 0.0).q + p * inflation.slope;
-        by_hand = std::max(by_hand, (cohesion - q) * L);
+        const double overlap = 2.0 - distance, L = 2.0 * std::sqrt(overlap * (1.0 - 0.25 * overlap));
+        by_hand = std::max(by_hand, cohesion * L - test::unit_pair_force(overlap, 0.3));
     }
     EXPECT_NEAR(largest, by_hand, 1e-9);
     EXPECT_GT(largest, 1e-4);
