@@ -101,23 +101,35 @@ double SoftDiscSolver::stress_scale() const {
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     const StepTimes times{2.0 * lag_, lag_ + 0.5 * dt, dt};
-    add_boundary_work(ledger_, motion_, lag_);
-    add_boundary_work(ledger_, walls, 0.5 * dt);
-    if (walls.box.periodic) follow_flow(walls);
+    const WallMotion before = motion_;
+    const bool periodic = walls.box.periodic;
+    const bool flow_changes =
+        periodic && (walls.velocity != before.velocity || walls.tilt_rate != before.tilt_rate);
     motion_ = walls;
-
-    std::vector<StepWork> work(blocks());
-    std::size_t bad = size();
     const MotionInput input = motion_input();
+
+    struct OfBlock {
+        StepWork work;
+        Mat2 flux = Mat2::Zero();
+    };
+    const Chunks grains = blocks();
+    std::vector<OfBlock> part(grains.count());
+    std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
-    for (std::size_t block = 0; block < blocks(); ++block) {
-        const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        work[block] = move_grains(input, grains_, memory_, times, begin, end, bad);
+    for (std::size_t block = 0; block < grains.count(); ++block) {
+        const std::size_t begin = grains.begin(block), end = grains.end(block);
+        if (periodic) part[block].flux = momentum_flux(before, begin, end);
+        if (flow_changes) follow_flow(before, begin, end);
+        part[block].work = move_grains(input, grains_, memory_, times, begin, end, bad);
     }
-    for (const StepWork& w : work) {
-        if (!has_potential()) ledger_.elastic += w.stored;
-        ledger_.damping += w.damped;
-        ledger_.plastic += w.plastic;
+    Mat2 flux = Mat2::Zero();
+    for (const OfBlock& p : part) flux += p.flux;
+    add_boundary_work(ledger_, before, flux, lag_);
+    add_boundary_work(ledger_, walls, flux, 0.5 * dt);
+    for (const OfBlock& p : part) {
+        if (!has_potential()) ledger_.elastic += p.work.stored;
+        ledger_.damping += p.work.damped;
+        ledger_.plastic += p.work.plastic;
     }
     time_ += dt;
     lag_ = 0.5 * dt;
@@ -136,14 +148,15 @@ void SoftDiscSolver::refresh_contacts(double dt) {
 }
 
 /// A periodic cell that changes its velocity takes the grains along: velocities are kept against its flow.
-void SoftDiscSolver::follow_flow(const WallMotion& walls) {
-    if (walls.velocity == motion_.velocity && walls.tilt_rate == motion_.tilt_rate) return;
-    WallMotion old = motion_;
-    old.box = walls.box;
-    for (Grain& g : grains_.grain) {
-        const Vec2 change = walls.affine_velocity(Vec2{g.x, g.y}) - old.affine_velocity(Vec2{g.x, g.y});
-        g.vx += change.x();
-        g.vy += change.y();
+void SoftDiscSolver::follow_flow(const WallMotion& before, std::size_t begin, std::size_t end) {
+    WallMotion old = before;
+    old.box = motion_.box;
+    for (std::size_t g = begin; g < end; ++g) {
+        Grain& grain = grains_.grain[g];
+        const Vec2 x{grain.x, grain.y};
+        const Vec2 change = motion_.affine_velocity(x) - old.affine_velocity(x);
+        grain.vx += change.x();
+        grain.vy += change.y();
     }
 }
 
@@ -177,10 +190,7 @@ void SoftDiscSolver::rebuild_contacts() {
 }
 
 void SoftDiscSolver::update_contacts(double dt) {
-    guess_before_ = contacts_.guess;
-    closed_pairs_.clear();
-    evaluate_all_pairs();
-    evaluate_all_walls();
+    find_contacts();
     if (has_potential()) find_all_pressures();
     if (options_.sliding.acts()) slide(dt);
     sum_wall_forces();
@@ -201,7 +211,7 @@ void SoftDiscSolver::limit_time_step(double dt) {
     }
 }
 
-void SoftDiscSolver::evaluate_all_pairs() {
+void SoftDiscSolver::find_contacts() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
     const PairInput in{
@@ -209,62 +219,65 @@ void SoftDiscSolver::evaluate_all_pairs() {
         options_.geometry, options_.contact_damping, with_rates};
     const PairOutput out{contacts_.pair_contact, contacts_.guess, contacts_.pair_opening,
                          contacts_.pair_history.slip_rate};
-    const std::size_t pairs = contacts_.pairs().size();
-    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
-    std::vector<PairNews> news(chunks);
-#pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t begin = chunk * pairs_per_chunk;
-        news[chunk] = evaluate_pairs(in, out, begin, std::min(pairs, begin + pairs_per_chunk));
+    const WallInput walls{grains_, lattice, options_.motion.contact_law, options_.contact_damping};
+    guess_before_.resize(contacts_.guess.size());
+    const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
+    const Chunks wall_pairs(contacts_.wall_pairs().size(), pairs_per_chunk);
+    std::vector<PairNews> pair_news(pairs.count());
+    std::vector<WallNews> wall_news(wall_pairs.count());
+#pragma omp parallel if (threads_pay_off())
+    {
+#pragma omp for schedule(static) nowait
+        for (std::size_t c = 0; c < wall_pairs.count(); ++c)
+            wall_news[c] = evaluate_walls(walls, contacts_, wall_pairs.begin(c), wall_pairs.end(c));
+#pragma omp for schedule(static)
+        for (std::size_t c = 0; c < pairs.count(); ++c) {
+            const auto guess = contacts_.guess.begin();
+            std::copy(guess + pairs.begin(c), guess + pairs.end(c), guess_before_.begin() + pairs.begin(c));
+            pair_news[c] = evaluate_pairs(in, out, pairs.begin(c), pairs.end(c));
+        }
     }
-    for (const PairNews& n : news) {
-        if (n.bad.pair < pairs) throw_bad_pair(n.bad);
+    closed_pairs_.clear();
+    closed_walls_.clear();
+    for (const PairNews& n : pair_news) {
+        if (n.bad.pair < contacts_.pairs().size()) throw_bad_pair(n.bad);
         closed_pairs_.insert(closed_pairs_.end(), n.closed.begin(), n.closed.end());
     }
-}
-
-void SoftDiscSolver::evaluate_all_walls() {
-    const WallNews news =
-        evaluate_walls({grains_, cell(), options_.motion.contact_law, options_.contact_damping}, contacts_);
-    closed_walls_ = news.closed;
-    if (news.bad < contacts_.wall_pairs().size())
-        throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[news.bad].grain)),
-                            "wall contact", time_,
-                            "the grain went through a wall, or its cap is too deep for Eq. 57");
+    for (const WallNews& n : wall_news) {
+        if (n.bad < contacts_.wall_pairs().size())
+            throw DivergedError(packing_index(static_cast<std::size_t>(contacts_.wall_pairs()[n.bad].grain)),
+                                "wall contact", time_,
+                                "the grain went through a wall, or its cap is too deep for Eq. 57");
+        closed_walls_.insert(closed_walls_.end(), n.closed.begin(), n.closed.end());
+    }
 }
 
 void SoftDiscSolver::find_all_pressures() {
-    const std::size_t pairs = contacts_.pairs().size();
     pressures_.side.resize(contacts_);
+    const Chunks grains = blocks(), pairs(contacts_.pairs().size(), pairs_per_chunk);
     std::size_t bad = size();
-#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
-    for (std::size_t block = 0; block < blocks(); ++block) {
-        const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        bad = std::min(bad, find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio, contacts_,
-                                           pressures_, begin, end));
+#pragma omp parallel if (threads_pay_off())
+    {
+#pragma omp for schedule(static) reduction(min : bad)
+        for (std::size_t c = 0; c < grains.count(); ++c)
+            bad = std::min(bad, find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio,
+                                               contacts_, pressures_, grains.begin(c), grains.end(c)));
+#pragma omp for schedule(static)
+        for (std::size_t c = 0; c < pairs.count(); ++c)
+            find_pair_forces(pressures_.side, contacts_, pairs.begin(c), pairs.end(c));
     }
+    find_wall_forces(pressures_.side, contacts_);
     if (bad < size())
         throw DivergedError(packing_index(bad), "area", time_,
                             "its contacts have squeezed the grain to nothing");
-    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
-#pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t first = chunk * pairs_per_chunk;
-        find_pair_forces(pressures_.side, contacts_, first, std::min(pairs, first + pairs_per_chunk));
-    }
-    find_wall_forces(pressures_.side, contacts_);
 }
 
 void SoftDiscSolver::slide(double dt) {
-    const std::size_t pairs = contacts_.pairs().size();
-    const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
-    std::vector<SlidingWork> work(chunks);
+    const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
+    std::vector<SlidingWork> work(pairs.count());
 #pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t begin = chunk * pairs_per_chunk;
-        work[chunk] = slide_pairs(options_.sliding, grains_, contacts_, dt, begin,
-                                  std::min(pairs, begin + pairs_per_chunk));
-    }
+    for (std::size_t c = 0; c < pairs.count(); ++c)
+        work[c] = slide_pairs(options_.sliding, grains_, contacts_, dt, pairs.begin(c), pairs.end(c));
     SlidingWork sum;
     for (const SlidingWork& w : work) sum.add(w);
     sum.add(slide_walls(options_.sliding, grains_, contacts_, dt));
@@ -291,23 +304,32 @@ void SoftDiscSolver::sum_wall_forces() {
 
 /// Love-Weber stress of the cell, compression positive: (1/A) sum f on j (x) branch from i to j.
 void SoftDiscSolver::sum_cell_stress() {
+    const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
+    std::vector<CellStress> part(pairs.count());
+#pragma omp parallel for schedule(static) if (threads_pay_off())
+    for (std::size_t c = 0; c < pairs.count(); ++c)
+        for (std::size_t k = pairs.begin(c); k < pairs.end(c); ++k) add_stress(part[c], k);
     cell_stress_ = CellStress{};
-    for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
-        const Contact& c = contacts_.pair_contact[k];
-        if (!c.touching()) continue;
-        const Pair& pair = contacts_.pairs()[k];
-        const double q = c.q, dashpot = damping_without_pull(q, c.q_damping);
-        const Vec2 chord{c.chord_x, c.chord_y};
-        const Vec2 branch = grains_.center[static_cast<std::size_t>(pair.j)] -
-                            grains_.center[static_cast<std::size_t>(pair.i)] +
-                            lattice_.image(contacts_.images()[k]);
-        Vec2 force = (q + dashpot) * chord;
-        if (options_.sliding.slides()) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
-        cell_stress_.total += force * branch.transpose();
-        cell_stress_.damping += dashpot * chord * branch.transpose();
+    for (const CellStress& p : part) {
+        cell_stress_.total += p.total / motion_.box.area();
+        cell_stress_.damping += p.damping / motion_.box.area();
     }
-    cell_stress_.total /= motion_.box.area();
-    cell_stress_.damping /= motion_.box.area();
+}
+
+/// What pair k adds, times the area of the cell.
+void SoftDiscSolver::add_stress(CellStress& sum, std::size_t k) const {
+    const Contact& c = contacts_.pair_contact[k];
+    if (!c.touching()) return;
+    const Pair& pair = contacts_.pairs()[k];
+    const double dashpot = damping_without_pull(c.q, c.q_damping);
+    const Vec2 chord{c.chord_x, c.chord_y};
+    const Vec2 branch = grains_.center[static_cast<std::size_t>(pair.j)] -
+                        grains_.center[static_cast<std::size_t>(pair.i)] +
+                        lattice_.image(contacts_.images()[k]);
+    Vec2 force = (c.q + dashpot) * chord;
+    if (options_.sliding.slides()) force += contacts_.pair_history.tangential[k] * perpendicular(chord);
+    sum.total += force * branch.transpose();
+    sum.damping += dashpot * chord * branch.transpose();
 }
 
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {

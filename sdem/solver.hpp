@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/solver.hpp"
+#include "sdem/chunks.hpp"
 #include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
 #include "sdem/grain_motion.hpp"
@@ -58,7 +59,7 @@ class SoftDiscSolver : public Solver {
     MotionInput motion_input() const;
     bool has_potential() const { return options_.motion.contact_law == ContactLaw::lens_potential; }
     std::size_t size() const { return grains_.size(); }
-    std::size_t blocks() const { return (size() + grains_per_block - 1) / grains_per_block; }
+    Chunks blocks() const { return {size(), grains_per_block}; }
     int packing_index(std::size_t g) const { return grains_.original[g]; }
 
     Options options_;
@@ -77,14 +78,18 @@ class SoftDiscSolver : public Solver {
   private:
     void place(const Packing& packing);
     void rebuild_contacts();
-    void evaluate_all_pairs();
-    void evaluate_all_walls();
+    void find_contacts();
     void find_all_pressures();
     void slide(double dt);
     void sum_wall_forces();
+    struct CellStress {
+        Mat2 total = Mat2::Zero(), damping = Mat2::Zero();
+    };
     void sum_cell_stress();
-    void follow_flow(const WallMotion& walls);
-    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const;
+    void add_stress(CellStress& sum, std::size_t k) const;
+    void follow_flow(const WallMotion& before, std::size_t begin, std::size_t end);
+    Mat2 momentum_flux(const WallMotion& cell, std::size_t begin, std::size_t end) const;
+    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Mat2& flux, double dt) const;
     double time_step_share() const;
     void limit_time_step(double dt);
     void heed_closed_contacts();
@@ -122,9 +127,6 @@ class SoftDiscSolver : public Solver {
     void fill_outlines();
     void fill_fields();
     std::vector<Cut> cuts_of(std::size_t g) const;
-    struct CellStress {
-        Mat2 total = Mat2::Zero(), damping = Mat2::Zero();
-    };
 
     int flips_ = 0;
     double skin_ = 0.0;                                     ///< of the neighbour list [m]

@@ -11,17 +11,24 @@
 
 namespace softgrain::sdem {
 
+/// Flux of the momentum that the grains [begin, end) carry against the flow of the cell, times its area.
+Mat2 SoftDiscSolver::momentum_flux(const WallMotion& cell, std::size_t begin, std::size_t end) const {
+    Mat2 flux = Mat2::Zero();
+    for (std::size_t g = begin; g < end; ++g) {
+        const Grain& grain = grains_.grain[g];
+        const Vec2 u = Vec2{grain.vx, grain.vy} - cell.affine_velocity(Vec2{grain.x, grain.y});
+        flux += grain.mass * u * u.transpose();
+    }
+    return flux;
+}
+
 /// Work of walls or cell that move like this for dt; the share that dashpots at the boundary take goes to
 /// `damping`. Without a potential the rest counts as stored.
-void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const {
+void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Mat2& flux,
+                                       double dt) const {
     double work = 0.0, damped = 0.0;
     if (walls.box.periodic) {
         const Mat2 L = walls.velocity_gradient();
-        Mat2 flux = Mat2::Zero();  // of the momentum that grains carry against the flow
-        for (const Grain& g : grains_.grain) {
-            const Vec2 u = Vec2{g.vx, g.vy} - motion_.affine_velocity(Vec2{g.x, g.y});
-            flux += g.mass * u * u.transpose();
-        }
         const double area = walls.box.area();
         work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
         damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
@@ -85,12 +92,13 @@ double SoftDiscSolver::potential_energy() const {
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
-    add_boundary_work(ledger, motion_, lag_);
+    const Mat2 flux = motion_.box.periodic ? momentum_flux(motion_, 0, size()) : Mat2::Zero();
+    add_boundary_work(ledger, motion_, flux, lag_);
     const MotionInput input = motion_input();
-    for (std::size_t block = 0; block < blocks(); ++block) {
-        const std::size_t begin = block * grains_per_block;
-        const StepWork work = kick_work(input, grains_, memory_, {2.0 * lag_, lag_, 0.0}, begin,
-                                        std::min(size(), begin + grains_per_block));
+    const Chunks grains = blocks();
+    for (std::size_t block = 0; block < grains.count(); ++block) {
+        const StepWork work = kick_work(input, grains_, memory_, {2.0 * lag_, lag_, 0.0}, grains.begin(block),
+                                        grains.end(block));
         ledger.damping += work.damped;
         ledger.kinetic += work.kinetic;
         if (!has_potential()) ledger.elastic += work.stored;

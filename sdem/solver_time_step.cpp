@@ -19,12 +19,11 @@ double SoftDiscSolver::time_step_share() const {
 
 double SoftDiscSolver::time_step_limit() {
     if (has_potential()) {
+        const Chunks grains = blocks();
 #pragma omp parallel for schedule(static) if (threads_pay_off())
-        for (std::size_t block = 0; block < blocks(); ++block) {
-            const std::size_t begin = block * grains_per_block;
-            find_resistances(grains_, contacts_, pressures_.inflated, pressures_.side, begin,
-                             std::min(size(), begin + grains_per_block));
-        }
+        for (std::size_t block = 0; block < grains.count(); ++block)
+            find_resistances(grains_, contacts_, pressures_.inflated, pressures_.side, grains.begin(block),
+                             grains.end(block));
     }
     restraint_.resize(size());
     double smallest = std::numeric_limits<double>::infinity();
@@ -46,27 +45,29 @@ double SoftDiscSolver::time_step_limit() {
     return time_step_share() * smallest;
 }
 
-/// Shortens the time step where a contact has just closed. Grains that may need it are told by what was last
-/// known of them, and then looked at afresh.
+/// Shortens the time step where contacts have just closed. Grains that may need it are told by what was last
+/// known of them and all that closed since, and then looked at afresh.
 void SoftDiscSolver::heed_closed_contacts() {
-    const auto heed = [&](std::size_t g, const Restraint& fresh) {
-        Restraint sum = restraint_[g];
-        sum.add(fresh);
-        if (time_step_share() * grain_time_step(g, sum) >= time_step_) return;
-        sum = Restraint{};
+    std::vector<std::size_t> touched;
+    const auto note = [&](int grain, const Restraint& fresh) {
+        touched.push_back(static_cast<std::size_t>(grain));
+        restraint_[touched.back()].add(fresh);
+    };
+    for (const std::size_t k : closed_pairs_) {
+        const Restraint fresh = pair_restraint(k);
+        note(contacts_.pairs()[k].i, fresh);
+        note(contacts_.pairs()[k].j, fresh);
+    }
+    for (const std::size_t w : closed_walls_) note(contacts_.wall_pairs()[w].grain, wall_restraint(w));
+    for (const std::size_t g : touched) {
+        if (time_step_share() * grain_time_step(g, restraint_[g]) >= time_step_) continue;
+        Restraint sum;
         contact_view().each_side_of(g, [&](const Side& side) {
             sum.add(side.wall() ? wall_restraint(side.index) : pair_restraint(side.index));
         });
         restraint_[g] = sum;
         time_step_ = std::min(time_step_, time_step_share() * grain_time_step(g, sum));
-    };
-    for (const std::size_t k : closed_pairs_) {
-        const Restraint fresh = pair_restraint(k);
-        heed(static_cast<std::size_t>(contacts_.pairs()[k].i), fresh);
-        heed(static_cast<std::size_t>(contacts_.pairs()[k].j), fresh);
     }
-    for (const std::size_t w : closed_walls_)
-        heed(static_cast<std::size_t>(contacts_.wall_pairs()[w].grain), wall_restraint(w));
 }
 
 double SoftDiscSolver::resistance(std::size_t g, double overlap) const {

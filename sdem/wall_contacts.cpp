@@ -17,9 +17,9 @@ Vec2 velocity_at(const Grain& g, const Vec2& arm) {
 
 }  // namespace
 
-WallNews evaluate_walls(const WallInput& in, ContactList& list) {
+WallNews evaluate_walls(const WallInput& in, ContactList& list, std::size_t begin, std::size_t end) {
     WallNews news;
-    for (std::size_t k = 0; k < list.wall_pairs().size(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
         const WallPair pair = list.wall_pairs()[k];
         const auto g = static_cast<std::size_t>(pair.grain);
         const Grain& grain = in.grains.grain[g];

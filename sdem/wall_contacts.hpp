@@ -18,7 +18,7 @@ struct WallNews {
     std::vector<std::size_t> closed;                 ///< wall pairs that did not touch before
 };
 
-/// Fills list.wall_contact, and slip rates if there is a history.
-WallNews evaluate_walls(const WallInput& in, ContactList& list);
+/// Contacts of the wall pairs [begin, end), and their slip rates if there is a history.
+WallNews evaluate_walls(const WallInput& in, ContactList& list, std::size_t begin, std::size_t end);
 
 }  // namespace softgrain::sdem
