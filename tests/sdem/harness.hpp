@@ -31,6 +31,11 @@ inline void switch_off_damping(Scenario& s) {
     settings(s).set("contact_damping", 0.0);
     settings(s).set("shape_damping", 0.0);
 }
+/// Equilibria instead of dynamics; forces balance to this share of the mean contact force.
+inline void set_quasi_static(Scenario& s, double tolerance) {
+    settings(s).set("driver", std::string("quasi_static"));
+    settings(s).set("tolerance", tolerance);
+}
 
 inline Packing packing_of(Box box, std::vector<Vec2> center, std::vector<double> radius) {
     return Packing{box, std::move(center), std::move(radius), {}};
