@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include "common/packing/jam.hpp"
-#include "common/packing/size_laws.hpp"
-
 namespace softgrain::testing {
 
 const std::vector<Bands>& all_bands() {
@@ -72,14 +69,6 @@ Packing image_of(const Packing& packing, const Mat2& image) {
         turned.frame.push_back(image * packing.frame_of(g));
     }
     return turned;
-}
-
-Packing periodic_cell(int grains) {
-    PackingSpec spec;
-    spec.count = grains;
-    Random random(4);
-    const auto radii = draw_radii(spec, random);
-    return jam(radii, {.periodic = true}, random).packing;
 }
 
 std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing) {

@@ -6,6 +6,8 @@
 #include "common/errors.hpp"
 #include "common/observables/stress.hpp"
 #include "tests/contract/scenes.hpp"
+#include "tests/support/jammed_cell.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace softgrain {
 namespace {
@@ -48,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, CellContract, ::testing::ValuesIn(with_cell(tr
                          [](const auto& instance) { return instance.param.method; });
 
 TEST_P(CellContract, TheEdgesDoNotMatter) {
-    const Packing packing = periodic_cell(30);
+    const Packing packing = jammed_cell(30);
     const auto here = stresses(packing);
     ASSERT_GT(here.back().trace(), 0.0);
     Packing moved = packing;
@@ -63,7 +65,7 @@ TEST_P(CellContract, TheEdgesDoNotMatter) {
 }
 
 TEST_P(CellContract, TheStressIsThatOfTheContactsSeen) {
-    const Packing packing = periodic_cell(30);
+    const Packing packing = jammed_cell(30);
     const auto solver = solver_for(packing);
     deform(*solver, packing.box, 0.02, 0.02, 0.2 * slow(*solver));
     const GrainView view = solver->view(Need::all);
@@ -80,7 +82,7 @@ TEST_P(CellContract, TheStressIsThatOfTheContactsSeen) {
 }
 
 TEST_P(CellContract, TheEnergyLedgerCloses) {
-    const Packing packing = periodic_cell(30);
+    const Packing packing = jammed_cell(30);
     const auto solver = solver_for(packing);
     const EnergyLedger before = solver->view(Need::base).energy;
     const Box box = deform(*solver, packing.box, 0.02, 0.0, 0.3 * slow(*solver));
@@ -93,42 +95,25 @@ TEST_P(CellContract, TheEnergyLedgerCloses) {
 }
 
 TEST_P(CellContract, ARestartedRunHasTheSameBits) {
-    const Packing packing = periodic_cell(30);
-    const auto straight = solver_for(packing);
-    const double time = 0.1 * slow(*straight);
+    const Packing packing = jammed_cell(30);
+    const auto run = [&](double shear) {
+        return [=, this](Solver& solver, const Box& box) {
+            return deform(solver, box, 0.01, shear, 0.1 * slow(solver));
+        };
+    };
     // Far enough that the tilt has been reduced.
-    Box box = deform(*straight, packing.box, 0.01, 0.7, time);
-    Checkpoint middle;
-    straight->save(middle);
-    const auto restarted = solver_for(packing);
-    restarted->load(middle);
-    Checkpoint again;
-    restarted->save(again);
-    EXPECT_EQ(again.numbers, middle.numbers) << "what was loaded is not what was saved";
-    EXPECT_EQ(again.integers, middle.integers);
-    deform(*straight, box, 0.01, -0.1, time);
-    deform(*restarted, box, 0.01, -0.1, time);
-    Checkpoint a, b;
-    straight->save(a);
-    restarted->save(b);
-    EXPECT_EQ(a.numbers, b.numbers);
-    EXPECT_EQ(a.integers, b.integers);
-    EXPECT_EQ(straight->stable_time_step(), restarted->stable_time_step());
+    expect_restart_keeps_bits([&] { return solver_for(packing); },
+                              [&](Solver& solver) { return run(0.7)(solver, packing.box); }, run(-0.1));
 }
 
 TEST_P(CellContract, TwoThreadsGiveTheBitsOfOne) {
     Packing packing = square_lattice(36);
     packing.box.periodic = true;
-    Checkpoint state[2];
-    for (const int threads : {1, 2}) {
-        omp_set_num_threads(threads);
-        const auto solver = solver_for(packing);
-        deform(*solver, packing.box, 0.02, 0.01, 30.0 * solver->stable_time_step());
-        solver->view(Need::all);
-        solver->save(state[threads - 1]);
-    }
-    EXPECT_EQ(state[0].numbers, state[1].numbers);
-    EXPECT_EQ(state[0].integers, state[1].integers);
+    expect_threads_keep_bits([&] { return solver_for(packing); }, {1, 2},
+                             [&](Solver& solver) {
+                                 deform(solver, packing.box, 0.02, 0.01, 30.0 * solver.stable_time_step());
+                                 solver.view(Need::all);
+                             });
 }
 
 /// Uses of one feature each, of which bpm has none.
