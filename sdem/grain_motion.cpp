@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sdem/laws/mollon2022.hpp"
-#include "sdem/motion_block.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -61,10 +60,10 @@ void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
 
 /// Inner stress and the kick; the block is then ready to drift.
 void kick_block(MotionBlock& block, const MotionInput& in, const Grains& grains, const GrainMemory& memory,
-                double dt, std::size_t begin, std::size_t end) {
+                const StepTimes& times, std::size_t begin, std::size_t end) {
     load_block(block, in, grains, memory, begin, end);
     add_inner_stress(block, in.law);
-    kick(block, in.law, dt);
+    kick(block, in.law, times);
 }
 
 void keep_flow(const MotionBlock& block, GrainMemory& memory, std::size_t g, int l) {
@@ -86,11 +85,11 @@ StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
 
 }  // namespace
 
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
-                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad) {
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, const StepTimes& times,
+                     std::size_t begin, std::size_t end, std::size_t& bad) {
     MotionBlock block;
-    kick_block(block, in, grains, memory, kick_time, begin, end);
-    drift(block, in.law, drift_time);
+    kick_block(block, in, grains, memory, times, begin, end);
+    drift(block, in.law, times.next_drift);
     for (std::size_t g = begin; g < end; ++g) {
         const auto l = static_cast<int>(g - begin);
         Grain& grain = grains.grain[g];
@@ -112,10 +111,10 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
     return work_of(block, in.law);
 }
 
-StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,
-                   std::size_t begin, std::size_t end) {
+StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory,
+                   const StepTimes& times, std::size_t begin, std::size_t end) {
     MotionBlock block;
-    kick_block(block, in, grains, memory, dt, begin, end);
+    kick_block(block, in, grains, memory, times, begin, end);
     return work_of(block, in.law);
 }
 
@@ -127,7 +126,7 @@ void kick_from_rest(MotionBlock& block, const MotionInput& in, const Grains& gra
         block.F_rate.set(l, Tensor{0.0, 0.0, 0.0, 0.0});
     }
     add_inner_stress(block, in.law);
-    kick(block, in.law, 1.0);
+    kick(block, in.law, {0.0, 1.0, 0.0});
 }
 
 double flow_grains(const MotionInput& in, const Grains& grains, GrainMemory& memory, std::size_t begin,

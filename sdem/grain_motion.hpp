@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sdem/grain_sums.hpp"
-#include "sdem/motion_law.hpp"
+#include "sdem/motion_block.hpp"
 
 namespace softgrain::sdem {
 
@@ -27,13 +27,6 @@ struct StepWork {
     double damped = 0.0;   ///< by dashpots and shape damping [J]
     double plastic = 0.0;  ///< by plastic flow [J]
     double kinetic = 0.0;  ///< at the end of the kick [J]
-
-    void add(const StepWork& other) {
-        stored += other.stored;
-        damped += other.damped;
-        plastic += other.plastic;
-        kinetic += other.kinetic;
-    }
 };
 
 struct MotionInput {
@@ -48,18 +41,17 @@ inline constexpr double smallest_area_ratio = 0.04;
 /// Largest half axis / undeformed one of a grain that has not come apart.
 inline constexpr double largest_stretch = 5.0;
 
-/// One step of the grains [begin, end), at most grains_per_block of them: velocities advance by `kick_time`,
-/// Eq. 58, then positions by `drift_time`, Eq. 59; they differ where the step changes. New centres go to
+/// One step of the grains [begin, end), at most grains_per_block of them: velocities are kicked, Eq. 58, then
+/// positions drift, Eq. 59; kick and drift differ in length where the step changes. New centres go to
 /// grains.next_center, as other grains still need the old ones. `bad` becomes the first
 /// grain that moved by more than half its radius, is crushed or turned inside out.
-StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, double kick_time,
-                     double drift_time, std::size_t begin, std::size_t end, std::size_t& bad);
+StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, const StepTimes& times,
+                     std::size_t begin, std::size_t end, std::size_t& bad);
 
-/// The work of a kick by dt, and the kinetic energy after it; changes nothing.
-StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory, double dt,
-                   std::size_t begin, std::size_t end);
+/// The work of a kick, and the kinetic energy after it; changes nothing.
+StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory,
+                   const StepTimes& times, std::size_t begin, std::size_t end);
 
-struct MotionBlock;
 /// Accelerations of grains at rest, as the velocities after a kick by one second.
 void kick_from_rest(MotionBlock& block, const MotionInput& in, const Grains& grains,
                     const GrainMemory& memory, std::size_t begin, std::size_t end);

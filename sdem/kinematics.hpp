@@ -34,29 +34,6 @@ SOFTGRAIN_INLINE Tensor without_spin(const Tensor& F, const Tensor& rate, const 
     return rate - inertia.share(rate, W) * W;
 }
 
-/// d(det F)/dt.
-SOFTGRAIN_INLINE double dilation_rate(const Tensor& F, const Tensor& rate) {
-    return (F.yy * rate.xx - F.yx * rate.xy) + (F.xx * rate.yy - F.xy * rate.yx);
-}
-/// |C|^2 weighted with 1/M, where C = d(det F)/dF. C is orthogonal to any spin.
-SOFTGRAIN_INLINE double dilation_norm(const Tensor& F, const Inertia& inertia) {
-    return (F.yy * F.yy + F.xy * F.xy) / inertia.x + (F.yx * F.yx + F.xx * F.xx) / inertia.y;
-}
-/// Inertia sigma times its own against changes of area lets nearly incompressible grains take long steps and
-/// leaves angular momentum alone. What it adds to the momentum of a rate, as a factor of C.
-SOFTGRAIN_INLINE double dilation_momentum(const Tensor& F, const Tensor& rate, const Inertia& inertia,
-                                          double sigma) {
-    return sigma * dilation_rate(F, rate) / dilation_norm(F, inertia);
-}
-/// Accelerations with that inertia, from those without.
-SOFTGRAIN_INLINE Tensor slowed_dilation(const Tensor& F, const Tensor& acceleration, const Inertia& inertia,
-                                        double sigma) {
-    const double factor = sigma / (1.0 + sigma) * dilation_rate(F, acceleration) / dilation_norm(F, inertia);
-    const double x = factor / inertia.x, y = factor / inertia.y;
-    return {acceleration.xx - x * F.yy, acceleration.xy + y * F.yx, acceleration.yx + x * F.xy,
-            acceleration.yy - y * F.xx};
-}
-
 /// Largest change of eps_iso that one step may impose, so that a violent change cannot run away.
 inline constexpr double largest_dilation_step = 1e-3;
 

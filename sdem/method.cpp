@@ -49,8 +49,11 @@ std::span<const KeySpec> keys() {
                 "how a grain deforms: D2F0 rigid, D2F1 volume only, D2F3 volume and shape",
                 any_number,
                 {"D2F0", "D2F1", "D2F3"}},
-        KeySpec{"safety", KeyType::number, 0.8, "", "time step / predicted stability limit",
-                Range{0.0, 1.0, true, false}},
+        KeySpec{
+            "safety", KeyType::number, Value(), "",
+            "time step / predicted stability limit; by itself 0.8, or 0.07 where nothing damps and the law "
+            "has a potential: energy is then kept to a thousandth",
+            Range{0.0, 1.0, true, false}},
         KeySpec{"contact_damping", KeyType::number, 1.0, "", "gamma of Mollon 2022, Eq. 61", not_negative},
         KeySpec{"shape_damping", KeyType::number, 0.5, "",
                 "damping of a grain's free oscillations: gamma of Mollon 2022, Eq. 62-64, is "
@@ -168,7 +171,8 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
     options.sliding.stiffness = settings.number("tangential_stiffness");
     options.sliding.adhesion_range = settings.number("adhesion_range");
     options.contact_damping = settings.number("contact_damping");
-    options.safety = settings.number("safety");
+    const bool damped = options.contact_damping > 0.0 || motion.shape_damping;
+    options.safety = settings.has("safety") ? settings.number("safety") : damped || printed ? 0.8 : 0.07;
     options.skin = settings.number("skin");
     options.outline_points = static_cast<int>(settings.integer("outline_points"));
     const std::string_view geometry = settings.text("geometry");

@@ -1,6 +1,7 @@
 #include "sdem/motion_block.hpp"
 
 #include "common/simd.hpp"
+#include "sdem/dilation_inertia.hpp"
 #include "sdem/kinematics.hpp"
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/laws/mollon2022.hpp"
@@ -84,7 +85,7 @@ SOFTGRAIN_CLONES void shape_damping(MotionBlock& block) {
         const Tensor F = block.F[l], rate = block.F_rate[l];
         const Inertia inertia{block.inertia_x[l], block.inertia_y[l]};
         const Tensor deforming = without_spin(F, rate, inertia);
-        const double dilation = dilation_momentum(F, deforming, inertia, block.dilation_inertia[l]);
+        const double dilation = DilationInertia(inertia, block.dilation_inertia[l]).momentum(F, deforming);
         const Tensor force = inertia.times(deforming) + dilation * F.cofactor();
         const Tensor damping = -block.damping_rate[l] * force;
         block.moment.set(l, block.moment[l] + damping);
@@ -95,7 +96,8 @@ SOFTGRAIN_CLONES void shape_damping(MotionBlock& block) {
 /// Eq. 58. Work at the mean of the velocities before and after equals the change of kinetic energy to
 /// rounding.
 template <class Motion, bool dilates>
-SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, double dt) {
+SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, const StepTimes& times) {
+    const double dt = times.kick, last = times.last_drift, next = times.next_drift;
 #pragma omp simd
     for (int l = 0; l < block.count; ++l) {
         const double over_mass = dt / block.mass[l];
@@ -103,11 +105,9 @@ SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, double dt) {
                      new_vy = block.vy[l] + over_mass * block.fy[l];
         const Inertia inertia{block.inertia_x[l], block.inertia_y[l]};
         const Tensor F = block.F[l], rate = block.F_rate[l], moment = block.moment[l];
-        Tensor acceleration = inertia.divides(moment);
-        double extra = 0.0;
-        if constexpr (dilates)
-            acceleration = slowed_dilation(F, acceleration, inertia, block.dilation_inertia[l]);
-        const Tensor free_rate = rate + dt * acceleration;
+        const DilationInertia dilation(inertia, block.dilation_inertia[l]);
+        Tensor free_rate = rate + dt * inertia.divides(moment);
+        if constexpr (dilates) free_rate = dilation.slowed(F, rate, free_rate, inertia, last, next);
         const Tensor new_rate = Motion::allowed(F, free_rate, inertia);
         const double ux = new_vx - block.flow_vx[l], uy = new_vy - block.flow_vy[l];
         const double mean_vx = 0.5 * (block.vx[l] + new_vx) - block.flow_vx[l];
@@ -119,9 +119,8 @@ SOFTGRAIN_INLINE void kick_lanes(MotionBlock& block, double dt) {
             -dt * (block.fx[l] * mean_vx + block.fy[l] * mean_vy + contraction(moment, mean_rate));
         if constexpr (Motion::constrains)  // the constraint's reaction
             stored -= contraction(inertia.times(new_rate - free_rate), mean_rate);
-        if constexpr (dilates)
-            extra = 0.5 * dilation_rate(F, new_rate) *
-                    dilation_momentum(F, new_rate, inertia, block.dilation_inertia[l]);
+        double extra = 0.0;
+        if constexpr (dilates) extra = 0.5 * dilation_rate(F, new_rate) * dilation.momentum(F, new_rate);
         block.new_vx[l] = new_vx;
         block.new_vy[l] = new_vy;
         block.new_rate.set(l, new_rate);
@@ -165,23 +164,23 @@ SOFTGRAIN_INLINE void drift_lanes(MotionBlock& block, double dt) {
     }
 }
 
-SOFTGRAIN_CLONES void kick_free(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F3, false>, false>(b, dt);
+SOFTGRAIN_CLONES void kick_free(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F3, false>, false>(b, times);
 }
-SOFTGRAIN_CLONES void kick_dilating(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F3, false>, true>(b, dt);
+SOFTGRAIN_CLONES void kick_dilating(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F3, false>, true>(b, times);
 }
-SOFTGRAIN_CLONES void kick_imposed(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F3, true>, false>(b, dt);
+SOFTGRAIN_CLONES void kick_imposed(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F3, true>, false>(b, times);
 }
-SOFTGRAIN_CLONES void kick_volume(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F1, false>, true>(b, dt);
+SOFTGRAIN_CLONES void kick_volume(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F1, false>, true>(b, times);
 }
-SOFTGRAIN_CLONES void kick_volume_imposed(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F1, true>, false>(b, dt);
+SOFTGRAIN_CLONES void kick_volume_imposed(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F1, true>, false>(b, times);
 }
-SOFTGRAIN_CLONES void kick_rigid(MotionBlock& b, double dt) {
-    kick_lanes<Motion<Kinematics::D2F0, false>, false>(b, dt);
+SOFTGRAIN_CLONES void kick_rigid(MotionBlock& b, const StepTimes& times) {
+    kick_lanes<Motion<Kinematics::D2F0, false>, false>(b, times);
 }
 SOFTGRAIN_CLONES void drift_free(MotionBlock& b, double dt) {
     drift_lanes<Motion<Kinematics::D2F3, false>>(b, dt);
@@ -219,17 +218,17 @@ void add_inner_stress(MotionBlock& block, const MotionLaw& law) {
     if (law.shape_damping) shape_damping(block);
 }
 
-void kick(MotionBlock& block, const MotionLaw& law, double dt) {
+void kick(MotionBlock& block, const MotionLaw& law, const StepTimes& times) {
     switch (law.kinematics) {
         case Kinematics::D2F0:
-            return kick_rigid(block, dt);
+            return kick_rigid(block, times);
         case Kinematics::D2F1:
-            return law.imposes_area ? kick_volume_imposed(block, dt) : kick_volume(block, dt);
+            return law.imposes_area ? kick_volume_imposed(block, times) : kick_volume(block, times);
         case Kinematics::D2F3:
             break;
     }
-    if (law.imposes_area) return kick_imposed(block, dt);
-    law.dilation_inertia ? kick_dilating(block, dt) : kick_free(block, dt);
+    if (law.imposes_area) return kick_imposed(block, times);
+    law.dilation_inertia ? kick_dilating(block, times) : kick_free(block, times);
 }
 
 void drift(MotionBlock& block, const MotionLaw& law, double dt) {

@@ -37,10 +37,15 @@ struct MotionBlock {
     alignas(64) Lane reach, moved, det, caps_before;
 };
 
+/// One step in time [s].
+struct StepTimes {
+    double last_drift, kick, next_drift;
+};
+
 /// Adds inner stress and shape damping to the moments; plastic grains flow.
 void add_inner_stress(MotionBlock& block, const MotionLaw& law);
-/// Velocities and rates after dt, what the kinematics allow of them, and the work done.
-void kick(MotionBlock& block, const MotionLaw& law, double dt);
+/// Velocities and rates after the kick, what the kinematics allow of them, and the work done.
+void kick(MotionBlock& block, const MotionLaw& law, const StepTimes& times);
 /// Positions and shapes after dt, put back on what the kinematics allow.
 void drift(MotionBlock& block, const MotionLaw& law, double dt);
 

@@ -101,7 +101,7 @@ double SoftDiscSolver::stress_scale() const {
 }
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
-    const double kick = lag_ + 0.5 * dt;
+    const StepTimes times{2.0 * lag_, lag_ + 0.5 * dt, dt};
     add_boundary_work(ledger_, motion_, lag_);
     add_boundary_work(ledger_, walls, 0.5 * dt);
     if (walls.box.periodic) follow_flow(walls);
@@ -113,7 +113,7 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block, end = std::min(size(), begin + grains_per_block);
-        work[block] = move_grains(input, grains_, memory_, kick, dt, begin, end, bad);
+        work[block] = move_grains(input, grains_, memory_, times, begin, end, bad);
     }
     for (const StepWork& w : work) {
         if (!has_potential()) ledger_.elastic += w.stored;
@@ -429,8 +429,8 @@ EnergyLedger SoftDiscSolver::energy() const {
     const MotionInput input = motion_input();
     for (std::size_t block = 0; block < blocks(); ++block) {
         const std::size_t begin = block * grains_per_block;
-        const StepWork work =
-            kick_work(input, grains_, memory_, lag_, begin, std::min(size(), begin + grains_per_block));
+        const StepWork work = kick_work(input, grains_, memory_, {2.0 * lag_, lag_, 0.0}, begin,
+                                        std::min(size(), begin + grains_per_block));
         ledger.damping += work.damped;
         ledger.kinetic += work.kinetic;
         if (!has_potential()) ledger.elastic += work.stored;

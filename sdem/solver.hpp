@@ -20,7 +20,7 @@ struct Options {
     Geometry geometry = Geometry::batch;
     SlidingLaw sliding;
     double contact_damping = 1.0;  ///< gamma of Eq. 61
-    double safety = 0.8;           ///< share of the stability limit
+    double safety = 0.8;           ///< time step / stability limit
     double skin = 0.2;             ///< of the neighbour list, in mean radii
     int outline_points = 64;
 };

@@ -77,6 +77,11 @@ inline void set_box(Solver& solver, const Box& box) {
     solver.load(c);
 }
 
+/// Order of convergence between the first error and the last.
+inline double order_of(const std::vector<double>& error, const std::vector<double>& step) {
+    return std::log(error.front() / error.back()) / std::log(step.front() / step.back());
+}
+
 /// f'(0) by central differences of fourth order.
 inline double slope(const std::function<double(double)>& f, double h) {
     return (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h);
