@@ -6,7 +6,7 @@
 namespace softgrain::sdem {
 namespace {
 
-/// Values of `old` for the keys of both sorted lists, `fresh` for new keys.
+/// Values of `old` for the keys of both sorted lists, zero for new keys.
 template <class Key, class T>
 std::vector<T> carried(std::span<const Key> old_keys, const std::vector<T>& old, std::span<const Key> keys) {
     std::vector<T> now(keys.size(), T{});
@@ -56,7 +56,7 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
     guess = carried<Pair>(old_pairs, guess, pairs());
     carry<Pair>(pair_history, old_pairs, pairs());
     pair_contact.assign(pairs().size(), Contact{});
-    pair_opening.assign(pairs().size(), Opening{});
+    pair_opening.assign(keeps_openings ? pairs().size() : 0, Opening{});
     first_.assign(n + 1, 0);
     second_start_.assign(n + 1, 0);
     for (const Pair& pair : pairs()) {

@@ -47,8 +47,9 @@ class ContactList {
     std::vector<Contact> pair_contact;  ///< [pairs]
     std::vector<Contact> wall_contact;  ///< [wall pairs]; i is the grain
     std::vector<ChordGuess> guess;      ///< [pairs]
-    /// [pairs] and [wall pairs], for laws that use them.
-    std::vector<Opening> pair_opening, wall_opening;
+    std::vector<Opening> pair_opening;  ///< [pairs] if kept
+    std::vector<Opening> wall_opening;  ///< [wall pairs]
+    bool keeps_openings = false;        ///< of pairs, for laws that use them
     ContactHistory pair_history, wall_history;
 
     /// Slots of the pairs whose first grain is g: [first(g), first(g + 1)).

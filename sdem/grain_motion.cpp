@@ -1,7 +1,5 @@
 #include "sdem/grain_motion.hpp"
 
-#include <algorithm>
-
 #include "sdem/laws/mollon2022.hpp"
 
 namespace softgrain::sdem {
@@ -103,10 +101,7 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
         grains.reach[g] = block.reach[l];
         if (in.law.imposes_area) memory.caps_before[g] = block.caps_before[l];
         if (in.law.plastic) keep_flow(block, memory, g, l);
-        const bool near = block.moved[l] <= 0.25 * grain.radius * grain.radius;
-        const bool sound = block.det[l] > smallest_area_ratio &&
-                           block.reach[l] <= largest_stretch * std::max(grain.a, grain.b);
-        if (!near || !sound) bad = std::min(bad, g);
+        if (!sound(grain, block.moved[l], block.det[l], block.reach[l])) bad = std::min(bad, g);
     }
     return work_of(block, in.law);
 }

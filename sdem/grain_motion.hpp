@@ -1,5 +1,6 @@
 #pragma once
 // The motion of grains under the forces of their contacts: inner stress, kick, constraints, drift.
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -41,10 +42,17 @@ inline constexpr double smallest_area_ratio = 0.04;
 /// Largest half axis / undeformed one of a grain that has not come apart.
 inline constexpr double largest_stretch = 5.0;
 
+/// False for a grain that in one step moved by more than half its radius, is crushed, inside out or torn
+/// apart. moved2: way squared [m^2]; det: of F; reach: largest half axis [m].
+inline bool sound(const Grain& grain, double moved2, double det, double reach) {
+    return moved2 <= 0.25 * grain.radius * grain.radius && det > smallest_area_ratio &&
+           reach <= largest_stretch * std::max(grain.a, grain.b);
+}
+
 /// One step of the grains [begin, end), at most grains_per_block of them: velocities are kicked, Eq. 58, then
 /// positions drift, Eq. 59; kick and drift differ in length where the step changes. New centres go to
 /// grains.next_center, as other grains still need the old ones. `bad` becomes the first
-/// grain that moved by more than half its radius, is crushed or turned inside out.
+/// grain that is not sound.
 StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory, const StepTimes& times,
                      std::size_t begin, std::size_t end, std::size_t& bad);
 

@@ -99,7 +99,7 @@ void scatter(Workspace& space) {
 std::size_t find_pressures(const Grains& grains, GrainLaw law, double smallest, const ContactList& list,
                            Pressures& pressures, std::size_t begin, std::size_t end) {
     Workspace& space = workspace();
-    PressureBlock& block = load(space, grains, list, pressures.push, begin, end);
+    PressureBlock& block = load(space, grains, list, pressures.side, begin, end);
     find_pressures(block, law);
     scatter(space);
     std::size_t bad = grains.size();

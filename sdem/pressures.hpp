@@ -26,7 +26,8 @@ struct SideValues {
 struct Pressures {
     std::vector<double> stress;      ///< [n] P: part of a grain's stress along the cofactor of F [N/m]
     std::vector<Inflated> inflated;  ///< [n]
-    SideValues push;                 ///< dU/d(beta S) of one side [N/m]
+    /// Pushes dU/d(beta S) of one side while forces are found [N/m], resistances while the time step is.
+    SideValues side;
 };
 
 /// Pressures of the grains [begin, end), at most grains_per_block; the first grain whose area ratio Je is not

@@ -176,7 +176,9 @@ void QuasiStaticSolver::step(double keep, double turn, double dt) {
         grains_.next_center[g] = grains_.center[g];
         grains_.center[g] = Vec2{grain.x, grain.y};
         grains_.reach[g] = reach_of(grain);
-        if (!sound(g)) bad = std::min(bad, g);
+        if (!sound(grain, (grains_.center[g] - grains_.next_center[g]).squaredNorm(), grain.F.det(),
+                   grains_.reach[g]))
+            bad = std::min(bad, g);
     }
     if (bad < size()) throw_bad_grain(bad);
     refresh_contacts(0.0);

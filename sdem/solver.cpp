@@ -9,8 +9,6 @@
 #include <numbers>
 
 #include "common/errors.hpp"
-#include "sdem/laws/lens_potential.hpp"
-#include "sdem/laws/plastic_flow.hpp"
 #include "sdem/space_order.hpp"
 #include "sdem/wall_contacts.hpp"
 
@@ -19,7 +17,6 @@ namespace {
 
 constexpr std::size_t pairs_per_chunk = 128;
 constexpr int steps_per_time_step_check = 16;
-constexpr int steps_per_energy_check = 128;
 constexpr double worth_a_change = 1.25;
 
 }  // namespace
@@ -28,6 +25,7 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
                                const Options& options)
     : options_(options) {
     motion_.box = lattice_ = packing.box;
+    skin_ = options.skin * packing.mean_radius();
     grains_.material = std::move(material);
     place(packing);
     const std::size_t n = size();
@@ -40,6 +38,7 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
         memory_.plastic_xy.assign(n, 0.0);
         memory_.plastic_yy.assign(n, 1.0);
     }
+    contacts_.keeps_openings = !has_potential();
     rebuild_contacts();
     if (options_.sliding.needs_history()) {
         contacts_.pair_history.resize(contacts_.pairs().size());
@@ -128,7 +127,7 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     grains_.center.swap(grains_.next_center);  // next_center now holds the last one
     if (bad < size()) throw_bad_grain(bad);
     refresh_contacts(dt);
-    if (steps_ % steps_per_energy_check == 0) watch_energy();
+    watch_energy();
 }
 
 void SoftDiscSolver::refresh_contacts(double dt) {
@@ -165,11 +164,9 @@ void SoftDiscSolver::rebuild_contacts() {
             grains_.center[g] = Vec2{grain.x, grain.y};
         }
     }
-    double mean_radius = 0.0;
-    for (const Grain& g : grains_.grain) mean_radius += g.radius / static_cast<double>(size());
     lattice_ = cell().box;
     try {
-        contacts_.build(grains_.center, grains_.reach, lattice_, options_.skin * mean_radius);
+        contacts_.build(grains_.center, grains_.reach, lattice_, skin_);
     } catch (const InputError& error) {
         if (steps_ == 0) throw;
         const auto largest = std::max_element(grains_.reach.begin(), grains_.reach.end());
@@ -210,9 +207,7 @@ void SoftDiscSolver::evaluate_all_pairs() {
     const PairInput in{
         grains_,           contacts_.pairs(),        contacts_.images(), lattice, options_.motion.contact_law,
         options_.geometry, options_.contact_damping, with_rates};
-    const bool opens = !has_potential();
-    const PairOutput out{contacts_.pair_contact, contacts_.guess,
-                         opens ? std::span<Opening>(contacts_.pair_opening) : std::span<Opening>(),
+    const PairOutput out{contacts_.pair_contact, contacts_.guess, contacts_.pair_opening,
                          contacts_.pair_history.slip_rate};
     const std::size_t pairs = contacts_.pairs().size();
     const std::size_t chunks = (pairs + pairs_per_chunk - 1) / pairs_per_chunk;
@@ -240,7 +235,7 @@ void SoftDiscSolver::evaluate_all_walls() {
 
 void SoftDiscSolver::find_all_pressures() {
     const std::size_t pairs = contacts_.pairs().size();
-    pressures_.push.resize(contacts_);
+    pressures_.side.resize(contacts_);
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t block = 0; block < blocks(); ++block) {
@@ -255,9 +250,9 @@ void SoftDiscSolver::find_all_pressures() {
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
         const std::size_t first = chunk * pairs_per_chunk;
-        find_pair_forces(pressures_.push, contacts_, first, std::min(pairs, first + pairs_per_chunk));
+        find_pair_forces(pressures_.side, contacts_, first, std::min(pairs, first + pairs_per_chunk));
     }
-    find_wall_forces(pressures_.push, contacts_);
+    find_wall_forces(pressures_.side, contacts_);
 }
 
 void SoftDiscSolver::slide(double dt) {
@@ -315,40 +310,6 @@ void SoftDiscSolver::sum_cell_stress() {
     cell_stress_.damping /= motion_.box.area();
 }
 
-/// Work of walls or cell that move like this for dt; the share that dashpots at the boundary take goes to
-/// `damping`. Without a potential the rest counts as stored.
-void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, double dt) const {
-    double work = 0.0, damped = 0.0;
-    if (walls.box.periodic) {
-        const Mat2 L = walls.velocity_gradient();
-        Mat2 flux = Mat2::Zero();  // of the momentum that grains carry against the flow
-        for (const Grain& g : grains_.grain) {
-            const Vec2 u = Vec2{g.vx, g.vy} - motion_.affine_velocity(Vec2{g.x, g.y});
-            flux += g.mass * u * u.transpose();
-        }
-        const double area = walls.box.area();
-        work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
-        damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
-    } else {
-        for (std::size_t w = 0; w < 4; ++w) {
-            const int axis = wall_axis(static_cast<int>(w));
-            const double moved = walls.velocity[w] * dt;
-            work -= wall_force_[w][axis] * moved;
-            damped -= wall_damping_force_[w][axis] * moved;
-        }
-    }
-    ledger.external_work += work;
-    ledger.damping += damped;
-    if (!has_potential()) ledger.elastic += work - damped;
-}
-
-bool SoftDiscSolver::sound(std::size_t g) const {
-    const Grain& grain = grains_.grain[g];
-    return (grains_.center[g] - grains_.next_center[g]).squaredNorm() <= 0.25 * grain.radius * grain.radius &&
-           grain.F.det() > smallest_area_ratio &&
-           grains_.reach[g] <= largest_stretch * std::max(grain.a, grain.b);
-}
-
 void SoftDiscSolver::throw_bad_grain(std::size_t g) const {
     const Grain& grain = grains_.grain[g];
     const double step = (grains_.center[g] - grains_.next_center[g]).norm();
@@ -380,90 +341,6 @@ void SoftDiscSolver::throw_bad_pair(const BadPair& bad) const {
         j = packing_index(static_cast<std::size_t>(pair.j));
     if (i > j) std::swap(i, j);
     throw DivergedError(i, "contact", time_, fmt::format("with grain {}: {}", j, why()));
-}
-
-LensPotential::Sums SoftDiscSolver::overlaps(std::size_t g) const {
-    const Grain& grain = grains_.grain[g];
-    const double area = grain.reference_area() * grain.F.det();
-    LensPotential::Sums sums;
-    contact_view().each_side_of(
-        g, [&](const Side& side) { sums.add(LensPotential::overlap(side.gives_way() / area)); });
-    return sums;
-}
-
-double SoftDiscSolver::area_ratio(std::size_t g, const LensPotential::Sums& contacts) const {
-    return grains_.grain[g].F.det() *
-           (1.0 - LensPotential::inflation(contacts, grains_.material_of(g).bulge).G);
-}
-
-double SoftDiscSolver::potential_energy() const {
-    double sum = 0.0;
-    for (std::size_t g = 0; g < size(); ++g) {
-        const Grain& grain = grains_.grain[g];
-        const GrainMaterial& m = grains_.material_of(g);
-        const double area = grain.reference_area();
-        const double J = grain.F.det();
-        const LensPotential::Sums contacts = overlaps(g);
-        const double ratio = area_ratio(g, contacts);
-        double density = LensPotential::contact_energy(m.plane_E, J, contacts);
-        if (options_.motion.grain_law == GrainLaw::linear) {
-            const double d = half_stretch_difference(grain.F);
-            density += 2.0 * m.mu * d * d + 0.5 * m.kappa * (ratio - 1.0) * (ratio - 1.0);
-        } else {
-            PlasticState strain{1.0, 0.0, 1.0};
-            if (options_.motion.plastic)
-                strain = {memory_.plastic_xx[g], memory_.plastic_xy[g], memory_.plastic_yy[g]};
-            const PlasticState b = elastic_strain(grain.F, strain);
-            density +=
-                0.5 * m.mu * (b.xx + b.yy - 2.0) + LensPotential::dilation_energy(ratio, m.mu, m.kappa);
-        }
-        sum += area * density;
-    }
-    return sum + stored_energy(options_.sliding, grains_, contacts_);
-}
-
-/// The ledger at the present positions: half a step further than the velocities kept.
-EnergyLedger SoftDiscSolver::energy() const {
-    EnergyLedger ledger = ledger_;
-    add_boundary_work(ledger, motion_, lag_);
-    const MotionInput input = motion_input();
-    for (std::size_t block = 0; block < blocks(); ++block) {
-        const std::size_t begin = block * grains_per_block;
-        const StepWork work = kick_work(input, grains_, memory_, {2.0 * lag_, lag_, 0.0}, begin,
-                                        std::min(size(), begin + grains_per_block));
-        ledger.damping += work.damped;
-        ledger.kinetic += work.kinetic;
-        if (!has_potential()) ledger.elastic += work.stored;
-    }
-    if (has_potential()) ledger.elastic = potential_energy();
-    return ledger;
-}
-
-/// A step beyond the stability limit feeds energy in. The law as printed has no potential; that of the other
-/// law is then a fair measure, as far as a factor goes.
-void SoftDiscSolver::watch_energy() {
-    constexpr double largest_gain = 0.05, largest_gain_without_potential = 1.0, rounding = 1e-12;
-    const EnergyLedger ledger = energy();
-    const double elastic = has_potential() ? ledger.elastic : potential_energy();
-    const double in_contacts = stored_energy(options_.sliding, grains_, contacts_);  // negative if cohesive
-    const Balance now{ledger.kinetic + elastic + ledger.dissipated() - ledger.external_work,
-                      ledger.kinetic + (elastic - in_contacts) + std::abs(in_contacts), ledger.external_work,
-                      true};
-    const double gain = now.energy - balance_.energy;
-    const double allowed = has_potential() ? largest_gain : largest_gain_without_potential;
-    const double scale = balance_.held + std::abs(now.external_work - balance_.external_work) +
-                         rounding * stress_scale() * motion_.box.area();
-    if (balance_.watched && !(gain <= allowed * scale)) {
-        std::size_t fastest = 0;
-        for (std::size_t g = 1; g < size(); ++g)
-            if (grains_.grain[g].F_rate.squared() > grains_.grain[fastest].F_rate.squared()) fastest = g;
-        throw DivergedError(
-            packing_index(fastest), "energy", time_,
-            fmt::format("{:.3g} J came from nowhere in {} steps, with {:.3g} J in all; use a smaller "
-                        "sdem.safety",
-                        gain, steps_per_energy_check, now.held));
-    }
-    balance_ = now;
 }
 
 }  // namespace softgrain::sdem

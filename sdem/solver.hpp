@@ -45,10 +45,10 @@ class SoftDiscSolver : public Solver {
     void update_contacts(double dt);
     /// The same, with new candidates where the old ones have had their day.
     void refresh_contacts(double dt);
-    /// False if the grain has moved by more than half its radius from next_center, is crushed or inside out.
-    bool sound(std::size_t g) const;
     void throw_bad_grain(std::size_t g) const;
     double time_step_limit();
+    /// Elastic energy of the grains, and with that of springs and adhesion [J].
+    double grain_energy() const;
     double potential_energy() const;
     bool threads_pay_off() const { return size() >= 800; }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
@@ -112,7 +112,7 @@ class SoftDiscSolver : public Solver {
     /// Overlaps that grain g gives way to, and its area ratio Je under them; lens potential only.
     LensPotential::Sums overlaps(std::size_t g) const;
     double area_ratio(std::size_t g, const LensPotential::Sums& contacts) const;
-    /// Throws DivergedError if energy has come from nowhere since the last call.
+    /// Every now and then: throws DivergedError if energy has come from nowhere since the last time.
     void watch_energy();
 
     void fill_state();
@@ -127,8 +127,8 @@ class SoftDiscSolver : public Solver {
     };
 
     int flips_ = 0;
+    double skin_ = 0.0;                                     ///< of the neighbour list [m]
     double time_step_ = 0.0;                                ///< [s] found every few steps
-    SideValues resistance_;                                 ///< of the grains against more overlap
     std::vector<Restraint> restraint_;                      ///< [n] when last looked at
     std::vector<std::size_t> closed_pairs_, closed_walls_;  ///< in this step
     long long steps_ = 0;

@@ -19,11 +19,10 @@ double SoftDiscSolver::time_step_share() const {
 
 double SoftDiscSolver::time_step_limit() {
     if (has_potential()) {
-        resistance_.resize(contacts_);
 #pragma omp parallel for schedule(static) if (threads_pay_off())
         for (std::size_t block = 0; block < blocks(); ++block) {
             const std::size_t begin = block * grains_per_block;
-            find_resistances(grains_, contacts_, pressures_.inflated, resistance_, begin,
+            find_resistances(grains_, contacts_, pressures_.inflated, pressures_.side, begin,
                              std::min(size(), begin + grains_per_block));
         }
     }
@@ -37,9 +36,9 @@ double SoftDiscSolver::time_step_limit() {
             if (!has_potential())
                 sum.add(side.wall() ? wall_restraint(k, 0.0) : pair_restraint(k, 0.0, 0.0));
             else if (side.wall())
-                sum.add(wall_restraint(k, resistance_.wall[k]));
+                sum.add(wall_restraint(k, pressures_.side.wall[k]));
             else
-                sum.add(pair_restraint(k, resistance_.pair[k].i, resistance_.pair[k].j));
+                sum.add(pair_restraint(k, pressures_.side.pair[k].i, pressures_.side.pair[k].j));
         });
         restraint_[g] = sum;
         smallest = std::min(smallest, grain_time_step(g, sum));

@@ -157,7 +157,7 @@ void SoftDiscSolver::fill_fields() {
         view_.strain_1[p] = middle + d;
         view_.strain_2[p] = middle - d;
         view_.cap_fraction[p] = sums.caps / grain.reference_area();
-        view_.covered_outline[p] = covered_outline(contacts_, g);
+        if (contacts_.keeps_openings) view_.covered_outline[p] = covered_outline(contacts_, g);
         // Logarithmic: principal values of Fp are l and 1/l, those of G their inverse squares.
         view_.plastic_strain[p] =
             options_.motion.plastic
