@@ -13,14 +13,16 @@ namespace {
 
 constexpr int most_steps = 100000;
 constexpr int steps_between_limits = 50;
-/// Force out of balance that counts as rest where no contact carries any, in E R.
+/// Force out of balance that counts as rest where no contact carries any, in E and mean radii.
 constexpr double floating_force = 1e-6;
 
 }  // namespace
 
 QuasiStaticSolver::QuasiStaticSolver(std::vector<GrainMaterial> material, const Packing& packing,
                                      const Options& options, const QuasiStaticOptions& quasi_static)
-    : SoftDiscSolver(std::move(material), packing, options), quasi_static_(quasi_static) {
+    : SoftDiscSolver(std::move(material), packing, options),
+      quasi_static_(quasi_static),
+      mean_radius_(packing.mean_radius()) {
     acceleration_.resize(6 * size());
 }
 
@@ -85,11 +87,12 @@ int QuasiStaticSolver::relax() {
     stop();
     double longest = time_step_limit(), dt = 0.3 * longest, alpha = first_alpha;
     int downhill = 0;
+    Descent now;
+    double rest = 0.0;
     for (int k = 0; k < most_steps; ++k) {
-        const Descent now = find_accelerations();
-        const double radius = grains_.grain.front().radius;
-        const double rest = std::max(quasi_static_.tolerance * mean_contact_force(),
-                                     floating_force * stress_scale() * radius);
+        now = find_accelerations();
+        rest = std::max(quasi_static_.tolerance * mean_contact_force(),
+                        floating_force * stress_scale() * mean_radius_);
         if (now.worst <= rest) {
             stop();
             return k;
@@ -110,10 +113,11 @@ int QuasiStaticSolver::relax() {
         }
         step(keep, turn, std::min(dt, longest));
     }
-    throw DivergedError(0, "balance", time_,
-                        fmt::format("no equilibrium after {} steps; use a larger sdem.tolerance or "
-                                    "sdem.driver = \"explicit\"",
-                                    most_steps));
+    throw DivergedError(
+        packing_index(now.worst_grain), "balance", time_,
+        fmt::format("no equilibrium after {} steps: {:.3g} N out of balance where {:.3g} N count as rest; "
+                    "use a larger sdem.tolerance or sdem.driver = \"explicit\"",
+                    most_steps, now.worst, rest));
 }
 
 QuasiStaticSolver::Descent QuasiStaticSolver::find_accelerations() {
@@ -143,7 +147,7 @@ QuasiStaticSolver::Descent QuasiStaticSolver::find_accelerations() {
                          my * (a.xy * a.xy + a.yy * a.yy);
             const double force = std::hypot(block.fx[l], block.fy[l]);
             const double moment = std::sqrt(block.moment[l].squared()) / grain.radius;
-            sum.worst = std::max({sum.worst, force, moment});
+            sum.note(std::max(force, moment), g);
         }
     }
     Descent sum;
@@ -151,7 +155,7 @@ QuasiStaticSolver::Descent QuasiStaticSolver::find_accelerations() {
         sum.power += d.power;
         sum.speed2 += d.speed2;
         sum.pull2 += d.pull2;
-        sum.worst = std::max(sum.worst, d.worst);
+        sum.note(d.worst, d.worst_grain);
     }
     return sum;
 }
@@ -183,18 +187,12 @@ void QuasiStaticSolver::step(double keep, double turn, double dt) {
 double QuasiStaticSolver::mean_contact_force() const {
     double sum = 0.0;
     int count = 0;
-    for (std::size_t k = 0; k < contacts_.pairs().size(); ++k) {
-        const Contact& c = contacts_.pair_contact[k];
-        if (!c.touching()) continue;
-        sum += std::abs(c.q) * std::sqrt(c.length_squared());
-        ++count;
-    }
-    for (std::size_t k = 0; k < contacts_.wall_pairs().size(); ++k) {
-        const Contact& c = contacts_.wall_contact[k];
-        if (!c.touching()) continue;
-        sum += std::abs(c.q) * std::sqrt(c.length_squared());
-        ++count;
-    }
+    for (const auto* contacts : {&contacts_.pair_contact, &contacts_.wall_contact})
+        for (const Contact& c : *contacts) {
+            if (!c.touching()) continue;
+            sum += std::abs(c.q) * std::sqrt(c.length_squared());
+            ++count;
+        }
     return count > 0 ? sum / count : 0.0;
 }
 

@@ -22,7 +22,14 @@ class QuasiStaticSolver final : public SoftDiscSolver {
     /// Sums over all grains, weighted with their inertia: what steers the descent.
     struct Descent {
         double power = 0.0, speed2 = 0.0, pull2 = 0.0;
-        double worst = 0.0;  ///< largest force or moment / radius out of balance [N]
+        double worst = 0.0;           ///< largest force or moment / radius out of balance [N]
+        std::size_t worst_grain = 0;  ///< the grain that feels it
+
+        void note(double out_of_balance, std::size_t grain) {
+            if (!(out_of_balance > worst)) return;
+            worst = out_of_balance;
+            worst_grain = grain;
+        }
     };
 
     void carry_along(const Box& before, const Box& after);
@@ -36,6 +43,7 @@ class QuasiStaticSolver final : public SoftDiscSolver {
     double flow();
 
     QuasiStaticOptions quasi_static_;
+    double mean_radius_;                ///< of the undeformed grains [m]
     std::vector<double> acceleration_;  ///< [6 n] of c and F
 };
 

@@ -34,7 +34,6 @@ SlidingWork slide_pairs(const SlidingLaw& law, const Grains& grains, ContactList
 /// The same for all walls.
 SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt);
 
-/// Adhesion that does not depend on the way, taken off the normal force per chord length before all else.
 /// Energy now in springs and adhesion [J].
 double stored_energy(const SlidingLaw& law, const Grains& grains, const ContactList& list);
 

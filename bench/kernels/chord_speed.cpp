@@ -11,6 +11,7 @@
 #include "sdem/geometry/chord.hpp"
 #include "sdem/geometry/chord_variants.hpp"
 #include "sdem/geometry/polygon_reference.hpp"
+#include "tests/sdem/chord_lanes.hpp"
 
 namespace softgrain::sdem {
 namespace {
@@ -55,13 +56,7 @@ ChordBatch batch_of(const Scene& scene) {
         const Ellipse &a = scene.a[k], &b = scene.b[k];
         WarmStart warm;
         chord_of(a, b, warm);
-        batch.dx[k] = b.center.x() - a.center.x(), batch.dy[k] = b.center.y() - a.center.y();
-        batch.a_xx[k] = a.axes(0, 0), batch.a_xy[k] = a.axes(0, 1);
-        batch.a_yx[k] = a.axes(1, 0), batch.a_yy[k] = a.axes(1, 1);
-        batch.b_xx[k] = b.axes(0, 0), batch.b_xy[k] = b.axes(0, 1);
-        batch.b_yx[k] = b.axes(1, 0), batch.b_yy[k] = b.axes(1, 1);
-        batch.end_ax[k] = warm.a.x(), batch.end_ay[k] = warm.a.y();
-        batch.end_bx[k] = warm.b.x(), batch.end_by[k] = warm.b.y();
+        test::set_lane(batch, k, a, b, warm);
     }
     return batch;
 }

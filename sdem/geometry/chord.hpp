@@ -45,9 +45,10 @@ namespace detail {
 struct Unit {
     double x, y;
     Unit(double ux, double uy) : x(ux), y(uy) {}
-    /// From a vector of length 1 but for rounding, which would add up over many calls.
+    /// From a vector of length 1 but for rounding to float; the error left is the cube of that.
     explicit Unit(const Vec2& v) {
-        const double scale = 1.5 - 0.5 * (v.x() * v.x() + v.y() * v.y());
+        const double excess = (v.x() * v.x() + v.y() * v.y()) - 1.0;
+        const double scale = 1.0 - excess * (0.5 - 0.375 * excess);
         x = scale * v.x();
         y = scale * v.y();
     }

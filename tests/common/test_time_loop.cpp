@@ -41,22 +41,32 @@ double value(const RunState& state, std::size_t row, std::string_view column) {
     return state.history.at(row).at(observable_index(column));
 }
 
+/// The end of the whole loading.
+RunState end_of(const Scenario& scenario, const Packing& packing, AffineSolver& solver) {
+    TimeLoop run(scenario, packing, solver, {});
+    run.go(never);
+    return run.state();
+}
+RunState end_of(const Scenario& scenario, const Packing& packing) {
+    AffineSolver solver(packing);
+    return end_of(scenario, packing, solver);
+}
+
 TEST(TimeLoop, SamplesAtEqualStrainWhateverTheTimeStep) {
     for (const double dt : {0.01, 0.0037}) {
         const Packing packing = square_of_four();
         const Scenario scenario = with_stages({isotropic(0.1)});
         AffineSolver solver(packing);
         solver.time_step = dt;
-        TimeLoop run(scenario, packing, solver, {});
-        run.go(never);
-        ASSERT_EQ(run.state().history.size(), 6U);
+        const RunState end = end_of(scenario, packing, solver);
+        ASSERT_EQ(end.history.size(), 6U);
         for (std::size_t k = 0; k < 6; ++k)
-            EXPECT_NEAR(value(run.state(), k, "axial_strain"), 0.02 * static_cast<double>(k), 1e-11);
-        EXPECT_EQ(run.state().ended, "loading done");
-        EXPECT_NEAR(run.state().box.width(), 0.9, 1e-11);
-        EXPECT_NEAR(run.state().box.height(), 1.8, 1e-11);
-        EXPECT_NEAR(run.state().box.position[0], 0.05, 1e-11) << "walls close from both sides";
-        EXPECT_NEAR(run.state().time, 1.0, 1e-9);
+            EXPECT_NEAR(value(end, k, "axial_strain"), 0.02 * static_cast<double>(k), 1e-11);
+        EXPECT_EQ(end.ended, "loading done");
+        EXPECT_NEAR(end.box.width(), 0.9, 1e-11);
+        EXPECT_NEAR(end.box.height(), 1.8, 1e-11);
+        EXPECT_NEAR(end.box.position[0], 0.05, 1e-11) << "walls close from both sides";
+        EXPECT_NEAR(end.time, 1.0, 1e-9);
     }
 }
 
@@ -66,12 +76,11 @@ TEST(TimeLoop, WallStressIsTheMeanOverTheWindowBeforeTheSample) {
     scenario.sampling.average_window = 0.5;
     AffineSolver solver(packing);
     solver.time_step = 1e-4;
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
+    const RunState end = end_of(scenario, packing, solver);
     // Force on a side wall p h with p = 1/(1-e)^2 - 1, h = 2 (1-e); its mean over e from 0.09 to 0.10, over h
     // at the end.
     const double mean = (std::log(0.91 / 0.90) - 0.5 * (0.91 * 0.91 - 0.90 * 0.90)) / 0.01;
-    EXPECT_NEAR(value(run.state(), 5, "stress_xx"), mean / 0.9, 1e-4) << "the time step leaves 1e-5";
+    EXPECT_NEAR(value(end, 5, "stress_xx"), mean / 0.9, 1e-4) << "the time step leaves 1e-5";
 }
 
 TEST(TimeLoop, OedometricMovesOneWallOnly) {
@@ -81,11 +90,9 @@ TEST(TimeLoop, OedometricMovesOneWallOnly) {
         stage.kind = LoadingKind::oedometric;
         stage.wall = static_cast<Wall>(wall);
         const Scenario scenario = with_stages({stage});
-        AffineSolver solver(packing);
-        TimeLoop run(scenario, packing, solver, {});
-        run.go(never);
+        const RunState end = end_of(scenario, packing);
         for (int other = 0; other < 4; ++other) {
-            const double moved = std::abs(run.state().box.position[static_cast<std::size_t>(other)] -
+            const double moved = std::abs(end.box.position[static_cast<std::size_t>(other)] -
                                           packing.box.position[static_cast<std::size_t>(other)]);
             EXPECT_NEAR(moved, other == wall ? 0.1 * (wall < 2 ? 1.0 : 2.0) : 0.0, 1e-11);
         }
@@ -100,18 +107,14 @@ TEST(TimeLoop, EndsAtThePackingFractionAsked) {
     for (const LoadingKind kind : {LoadingKind::isotropic, LoadingKind::oedometric}) {
         stage.kind = kind;
         const Scenario scenario = with_stages({stage});
-        AffineSolver solver(packing);
-        TimeLoop run(scenario, packing, solver, {});
-        run.go(never);
-        EXPECT_NEAR(run.state().history.back()[observable_index("packing_fraction_undeformed")], 0.3, 1e-10);
+        const RunState end = end_of(scenario, packing);
+        EXPECT_NEAR(end.history.back()[observable_index("packing_fraction_undeformed")], 0.3, 1e-10);
     }
     stage.until_packing_fraction_undeformed.reset();
     stage.until_packing_fraction = 0.3;
     const Scenario scenario = with_stages({stage});
-    AffineSolver solver(packing);
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
-    const double phi = run.state().history.back()[observable_index("packing_fraction")];
+    const RunState end = end_of(scenario, packing);
+    const double phi = end.history.back()[observable_index("packing_fraction")];
     EXPECT_GE(phi, 0.3);
     EXPECT_LT(phi, 0.3 * (1.0 + 2.5 * 0.005))
         << "seen at the next check, a quarter of a sample later at most";
@@ -123,10 +126,8 @@ TEST(TimeLoop, EndsAtTheStressAsked) {
     stage.strain_rate = 0.1;
     stage.until_stress = 0.2;
     const Scenario scenario = with_stages({stage});
-    AffineSolver solver(packing);
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
-    const double stress = run.state().history.back()[observable_index("mean_stress")];
+    const RunState end = end_of(scenario, packing);
+    const double stress = end.history.back()[observable_index("mean_stress")];
     EXPECT_GE(stress, 0.2);
     EXPECT_LT(stress, 0.23);
 }
@@ -140,13 +141,11 @@ TEST(TimeLoop, StagesFollowOneAnother) {
     more.kind = LoadingKind::oedometric;
     more.wall = Wall::top;
     const Scenario scenario = with_stages({isotropic(0.04), hold, more});
-    AffineSolver solver(packing);
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
-    EXPECT_NEAR(run.state().time, 0.4 + 0.5 + 0.4, 1e-9);
-    EXPECT_NEAR(run.state().box.height(), 2.0 * 0.92, 1e-11);
-    EXPECT_NEAR(run.state().box.width(), 0.96, 1e-11);
-    EXPECT_EQ(run.state().history.size(), 1U + 2U + 10U + 2U);
+    const RunState end = end_of(scenario, packing);
+    EXPECT_NEAR(end.time, 0.4 + 0.5 + 0.4, 1e-9);
+    EXPECT_NEAR(end.box.height(), 2.0 * 0.92, 1e-11);
+    EXPECT_NEAR(end.box.width(), 0.96, 1e-11);
+    EXPECT_EQ(end.history.size(), 1U + 2U + 10U + 2U);
 }
 
 Packing cell_of_four() {
@@ -161,19 +160,16 @@ TEST(TimeLoop, ACellShrinksAsABoxDoesAndTellsItsStress) {
     side.wall = Wall::top;
     for (const LoadingStage& stage : {isotropic(0.1), side}) {
         const Scenario scenario = with_stages({stage});
-        AffineSolver walls(square_of_four()), cell(cell_of_four());
-        TimeLoop between_walls(scenario, square_of_four(), walls, {});
-        TimeLoop in_cell(scenario, cell_of_four(), cell, {});
-        between_walls.go(never);
-        in_cell.go(never);
-        ASSERT_EQ(in_cell.state().history.size(), between_walls.state().history.size());
-        for (std::size_t k = 0; k < in_cell.state().history.size(); ++k)
+        const RunState between_walls = end_of(scenario, square_of_four()),
+                       in_cell = end_of(scenario, cell_of_four());
+        ASSERT_EQ(in_cell.history.size(), between_walls.history.size());
+        for (std::size_t k = 0; k < in_cell.history.size(); ++k)
             for (const char* column : {"axial_strain", "box_width", "box_height", "stress_xx", "stress_yy",
                                        "mean_stress", "deviatoric_stress"})
                 // The affine grains push alike on walls and cell; a mean of forces is not one of stresses.
-                EXPECT_NEAR(value(in_cell.state(), k, column), value(between_walls.state(), k, column), 2e-3)
+                EXPECT_NEAR(value(in_cell, k, column), value(between_walls, k, column), 2e-3)
                     << column << " of sample " << k;
-        EXPECT_EQ(in_cell.state().box.tilt, 0.0);
+        EXPECT_EQ(in_cell.box.tilt, 0.0);
     }
 }
 
@@ -187,10 +183,7 @@ TEST(TimeLoop, ShearKeepsTheAreaAndSamplesAtEqualShearStrain) {
     back.reverse = true;
     Scenario scenario = with_stages({shear, back});
     scenario.sampling.strain_interval = 0.1;
-    AffineSolver solver(cell_of_four());
-    TimeLoop run(scenario, cell_of_four(), solver, {});
-    run.go(never);
-    const RunState& state = run.state();
+    const RunState state = end_of(scenario, cell_of_four());
     ASSERT_EQ(state.history.size(), 1U + 11U + 12U);
     for (std::size_t k = 0; k < state.history.size(); ++k) {
         const double n = static_cast<double>(k);
@@ -218,17 +211,16 @@ TEST(TimeLoop, AVelocityGradientIsFollowedExactlyWhateverTheTimeStep) {
         const Scenario scenario = with_stages({stage});
         AffineSolver solver(packing);
         solver.time_step = dt;
-        TimeLoop run(scenario, packing, solver, {});
-        run.go(never);
-        const Box& box = run.state().box;
+        const RunState end = end_of(scenario, packing, solver);
+        const Box& box = end.box;
         const double t = 1.5, xx = std::exp(-0.2 * t), yy = std::exp(0.1 * t);
         EXPECT_NEAR(box.width(), 1.0 * xx, 1e-12);
         EXPECT_NEAR(box.height(), 2.0 * yy, 1e-12);
         EXPECT_NEAR(box.tilt, 0.3 * xx + 2.0 * 0.5 * (yy - xx) / 0.3, 1e-12);
         EXPECT_NEAR(0.5 * (box.position[0] + box.position[1]), 0.5, 1e-12) << "the middle stays";
         // Samples every 0.02 of the largest rate, 0.5: 37 whole intervals of 0.04 s and the end.
-        EXPECT_EQ(run.state().history.size(), 1U + 37U + 1U);
-        EXPECT_NEAR(run.state().time, t, 1e-9);
+        EXPECT_EQ(end.history.size(), 1U + 37U + 1U);
+        EXPECT_NEAR(end.time, t, 1e-9);
     }
 }
 
@@ -239,23 +231,19 @@ TEST(TimeLoop, EqualGradientsStretchWithoutAnIndeterminateForm) {
     stage.gradient_xy = 0.5;
     stage.duration = 1.0;
     const Scenario scenario = with_stages({stage});
-    AffineSolver solver(cell_of_four());
-    TimeLoop run(scenario, cell_of_four(), solver, {});
-    run.go(never);
-    EXPECT_NEAR(run.state().box.tilt, 2.0 * 0.5 * std::exp(-0.2), 1e-12);
+    const RunState end = end_of(scenario, cell_of_four());
+    EXPECT_NEAR(end.box.tilt, 2.0 * 0.5 * std::exp(-0.2), 1e-12);
 }
 
 TEST(TimeLoop, ReverseReachesItsEndsFromAbove) {
     LoadingStage back = isotropic(-0.02);
     back.reverse = true;
     const Scenario loop = with_stages({isotropic(0.06), back});
-    AffineSolver solver(square_of_four());
-    TimeLoop run(loop, square_of_four(), solver, {});
-    run.go(never);
-    EXPECT_NEAR(run.state().box.width(), 1.02, 1e-11);
-    EXPECT_NEAR(run.state().box.height(), 2.04, 1e-11);
-    EXPECT_EQ(run.state().history.size(), 1U + 3U + 4U);
-    EXPECT_NEAR(value(run.state(), 4, "axial_strain"), 0.04, 1e-11);
+    const RunState done = end_of(loop, square_of_four());
+    EXPECT_NEAR(done.box.width(), 1.02, 1e-11);
+    EXPECT_NEAR(done.box.height(), 2.04, 1e-11);
+    EXPECT_EQ(done.history.size(), 1U + 3U + 4U);
+    EXPECT_NEAR(value(done, 4, "axial_strain"), 0.04, 1e-11);
 
     for (int end = 0; end < 3; ++end) {
         LoadingStage unload = back;
@@ -306,11 +294,8 @@ TEST(TimeLoop, ClassesCountForTheMeanDensity) {
     dense.material.density = 4.0;  // mean of 1 and three times 5
     classes.classes.resize(2);
     classes.classes[1].material.density = 5.0;
-    AffineSolver first(plain), second(mixed);
-    TimeLoop a(dense, plain, first, {}), b(classes, mixed, second, {});
-    a.go(never);
-    b.go(never);
-    EXPECT_NEAR(b.state().time, a.state().time, 1e-12 * a.state().time);
+    const double time = end_of(dense, plain).time;
+    EXPECT_NEAR(end_of(classes, mixed).time, time, 1e-12 * time);
 }
 
 TEST(TimeLoop, InertialNumberSetsTheRate) {
@@ -319,10 +304,8 @@ TEST(TimeLoop, InertialNumberSetsTheRate) {
     stage.until_strain = 0.1;
     stage.inertial_number = 0.01;
     const Scenario scenario = with_stages({stage});
-    AffineSolver solver(packing);
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
-    EXPECT_NEAR(value(run.state(), 5, "inertial_number"), 0.01, 3e-4)
+    const RunState end = end_of(scenario, packing);
+    EXPECT_NEAR(value(end, 5, "inertial_number"), 0.01, 3e-4)
         << "the pressure of the last check lags a little";
 }
 
@@ -331,13 +314,11 @@ TEST(TimeLoop, LeavingTheValidityEndsInGoodOrder) {
     const Scenario scenario = with_stages({isotropic(0.1)});
     AffineSolver solver(packing);
     solver.invalid_below = 0.95;
-    TimeLoop run(scenario, packing, solver, {});
-    run.go(never);
-    EXPECT_EQ(run.state().ended, "left its range of validity: the box is too narrow");
-    EXPECT_LT(run.state().box.width(), 0.95);
-    EXPECT_GT(run.state().box.width(), 0.94);
-    EXPECT_NEAR(value(run.state(), run.state().history.size() - 1, "box_width"), run.state().box.width(),
-                1e-15);
+    const RunState end = end_of(scenario, packing, solver);
+    EXPECT_EQ(end.ended, "left its range of validity: the box is too narrow");
+    EXPECT_LT(end.box.width(), 0.95);
+    EXPECT_GT(end.box.width(), 0.94);
+    EXPECT_NEAR(value(end, end.history.size() - 1, "box_width"), end.box.width(), 1e-15);
 }
 
 class CountingObserver final : public Observer {
@@ -366,39 +347,58 @@ TEST(TimeLoop, NothingNotFiniteReachesAnObserver) {
     EXPECT_EQ(observer.samples, 3);
 }
 
+struct Seen {
+    RunState end;
+    std::vector<double> frames;
+};
+
+Seen run_straight(const Scenario& scenario, const Packing& packing) {
+    AffineSolver solver(packing);
+    CountingObserver observer;
+    TimeLoop run(scenario, packing, solver, {&observer});
+    run.go(never);
+    return {run.state(), observer.frames};
+}
+
+/// Stopped after so many steps; saved, loaded and run to the end.
+Seen run_in_two(const Scenario& scenario, const Packing& packing, int stop_after) {
+    Checkpoint loop, state;
+    {
+        std::atomic<int> stop{0};
+        AffineSolver solver(packing);
+        CountingObserver observer;
+        TimeLoop run(scenario, packing, solver, {&observer});
+        run.go(stop, [&] { stop = solver.steps >= stop_after ? 15 : 0; });
+        EXPECT_FALSE(run.finished());
+        run.state().save(loop);
+        solver.save(state);
+    }
+    AffineSolver solver(packing);
+    solver.load(state);
+    RunState restored;
+    restored.load(loop);
+    CountingObserver observer;
+    TimeLoop run(scenario, packing, solver, {&observer});
+    run.resume(restored);
+    run.go(never);
+    return {run.state(), observer.frames};
+}
+
 TEST(TimeLoop, AShearedCellResumesWithTheSameBits) {
-    const Packing packing = cell_of_four();
     LoadingStage shear;
     shear.kind = LoadingKind::shear;
     shear.until_shear = 0.7;
     shear.strain_rate = 0.3;
     const Scenario scenario = with_stages({isotropic(0.04), shear});
-    AffineSolver straight_solver(packing);
-    TimeLoop straight(scenario, packing, straight_solver, {});
-    straight.go(never);
+    const Seen straight = run_straight(scenario, cell_of_four());
     for (const int stop_after : {15, 57, 100}) {
-        std::atomic<int> stop{0};
-        AffineSolver first_solver(packing);
-        TimeLoop first(scenario, packing, first_solver, {});
-        first.go(stop, [&] { stop = first_solver.steps >= stop_after ? 15 : 0; });
-        ASSERT_FALSE(first.finished());
-        Checkpoint loop, state;
-        first.state().save(loop);
-        first_solver.save(state);
-        AffineSolver second_solver(packing);
-        second_solver.load(state);
-        RunState restored;
-        restored.load(loop);
-        TimeLoop second(scenario, packing, second_solver, {});
-        second.resume(restored);
-        second.go(never);
-        EXPECT_EQ(second.state().history, straight.state().history) << "stopped after " << stop_after;
-        EXPECT_EQ(second.state().box.tilt, straight.state().box.tilt);
+        const Seen in_two = run_in_two(scenario, cell_of_four(), stop_after);
+        EXPECT_EQ(in_two.end.history, straight.end.history) << "stopped after " << stop_after;
+        EXPECT_EQ(in_two.end.box.tilt, straight.end.box.tilt);
     }
 }
 
 TEST(TimeLoop, StoppedAnywhereAndResumedGivesTheSameBits) {
-    const Packing packing = square_of_four();
     LoadingStage hold;
     hold.kind = LoadingKind::hold;
     hold.duration = 0.2;
@@ -406,33 +406,12 @@ TEST(TimeLoop, StoppedAnywhereAndResumedGivesTheSameBits) {
     fast.strain_rate.reset();
     fast.inertial_number = 0.02;
     const Scenario scenario = with_stages({isotropic(0.04), hold, fast});
-    AffineSolver straight_solver(packing);
-    CountingObserver straight_observer;
-    TimeLoop straight(scenario, packing, straight_solver, {&straight_observer});
-    straight.go(never);
-
+    const Seen straight = run_straight(scenario, square_of_four());
     for (const int stop_after : {1, 7, 41, 53, 70, 90}) {
-        std::atomic<int> stop{0};
-        AffineSolver first_solver(packing);
-        CountingObserver first_observer;
-        TimeLoop first(scenario, packing, first_solver, {&first_observer});
-        first.go(stop, [&] { stop = first_solver.steps >= stop_after ? 15 : 0; });
-        ASSERT_FALSE(first.finished());
-        Checkpoint loop, state;
-        first.state().save(loop);
-        first_solver.save(state);
-
-        AffineSolver second_solver(packing);
-        second_solver.load(state);
-        RunState restored;
-        restored.load(loop);
-        CountingObserver second_observer;
-        TimeLoop second(scenario, packing, second_solver, {&second_observer});
-        second.resume(restored);
-        second.go(never);
-        EXPECT_EQ(second.state().history, straight.state().history) << "stopped after " << stop_after;
-        EXPECT_EQ(second_observer.frames, straight_observer.frames);
-        EXPECT_EQ(second.state().ended, straight.state().ended);
+        const Seen in_two = run_in_two(scenario, square_of_four(), stop_after);
+        EXPECT_EQ(in_two.end.history, straight.end.history) << "stopped after " << stop_after;
+        EXPECT_EQ(in_two.frames, straight.frames);
+        EXPECT_EQ(in_two.end.ended, straight.end.ended);
     }
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 // Small scenes that every method can run, and what each method is allowed to miss.
-#include <omp.h>
-
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -45,9 +43,6 @@ Packing square_lattice(int side);
 
 /// The packing turned by 90 degrees or mirrored about the box's middle: x' = middle + image (x - middle).
 Packing image_of(const Packing& packing, const Mat2& image);
-
-/// Jammed discs in a periodic cell.
-Packing periodic_cell(int grains);
 
 std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing);
 

@@ -6,6 +6,7 @@
 #include "common/errors.hpp"
 #include "common/observables/stress.hpp"
 #include "tests/contract/scenes.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace softgrain {
 namespace {
@@ -128,26 +129,13 @@ TEST_P(Contract, ARotatedOrMirroredSceneGivesTheRotatedOrMirroredAnswer) {
 
 TEST_P(Contract, ARestartedRunHasTheSameBits) {
     const Packing packing = nine_grains();
-    const auto straight = solver_for(packing);
-    const double time = 0.1 * slow(*straight);
-    Box box = squeeze(*straight, packing.box, 0.08, time);
-    Checkpoint middle;
-    straight->save(middle);
-    const auto restarted = solver_for(packing);
-    restarted->load(middle);
-    Checkpoint again;
-    restarted->save(again);
-    EXPECT_EQ(again.numbers, middle.numbers) << "what was loaded is not what was saved";
-    EXPECT_EQ(again.integers, middle.integers);
-
-    squeeze(*straight, box, 0.04, time);
-    squeeze(*restarted, box, 0.04, time);
-    Checkpoint a, b;
-    straight->save(a);
-    restarted->save(b);
-    EXPECT_EQ(a.numbers, b.numbers);
-    EXPECT_EQ(a.integers, b.integers);
-    EXPECT_EQ(straight->stable_time_step(), restarted->stable_time_step());
+    const auto run = [&](double strain) {
+        return [=, this](Solver& solver, const Box& box) {
+            return squeeze(solver, box, strain, 0.1 * slow(solver));
+        };
+    };
+    expect_restart_keeps_bits([&] { return solver_for(packing); },
+                              [&](Solver& solver) { return run(0.08)(solver, packing.box); }, run(0.04));
 }
 
 TEST_P(Contract, LookingAtTheGrainsDoesNotChangeThem) {
@@ -157,26 +145,17 @@ TEST_P(Contract, LookingAtTheGrainsDoesNotChangeThem) {
     const double time = 0.05 * slow(*watched);
     squeeze(*watched, packing.box, 0.1, time, [&](const Box&, double) { watched->view(Need::all); });
     squeeze(*alone, packing.box, 0.1, time);
-    Checkpoint a, b;
-    watched->save(a);
-    alone->save(b);
-    EXPECT_EQ(a.numbers, b.numbers);
-    EXPECT_EQ(a.integers, b.integers);
+    EXPECT_TRUE(same_bits(saved(*watched), saved(*alone)));
 }
 
 TEST_P(Contract, TwoThreadsGiveTheBitsOfOne) {
     const bool discs_in_grains = GetParam().method == "bpm";
     const Packing packing = square_lattice(discs_in_grains ? 8 : 36);
-    Checkpoint state[2];
-    for (const int threads : {1, 2}) {
-        omp_set_num_threads(threads);
-        const auto solver = solver_for(packing);
-        squeeze(*solver, packing.box, 0.02, 30.0 * solver->stable_time_step());
-        solver->view(Need::all);
-        solver->save(state[threads - 1]);
-    }
-    EXPECT_EQ(state[0].numbers, state[1].numbers);
-    EXPECT_EQ(state[0].integers, state[1].integers);
+    expect_threads_keep_bits([&] { return solver_for(packing); }, {1, 2},
+                             [&](Solver& solver) {
+                                 squeeze(solver, packing.box, 0.02, 30.0 * solver.stable_time_step());
+                                 solver.view(Need::all);
+                             });
 }
 
 TEST_P(Contract, TheEnergyLedgerCloses) {
@@ -271,9 +250,7 @@ TEST_P(Contract, ACheckpointOfAnotherPackingIsRefused) {
     Packing fewer = packing;
     fewer.center.pop_back();
     fewer.radius.pop_back();
-    Checkpoint saved;
-    solver_for(packing)->save(saved);
-    EXPECT_THROW(solver_for(fewer)->load(saved), InputError);
+    EXPECT_THROW(solver_for(fewer)->load(saved(*solver_for(packing))), InputError);
     EXPECT_THROW(solver_for(packing)->load(Checkpoint{}), InputError);
 }
 

@@ -6,10 +6,10 @@
 
 #include "common/errors.hpp"
 #include "common/observables/stress.hpp"
-#include "common/packing/jam.hpp"
-#include "common/packing/size_laws.hpp"
 #include "rigid_dem/method.hpp"
 #include "rigid_dem/solver.hpp"
+#include "tests/support/jammed_cell.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace softgrain::rigid_dem {
 namespace {
@@ -22,14 +22,6 @@ Scenario scenario_with(double friction) {
     table.set("overlap_limit", 10.0);
     s.method_settings["rigid_dem"] = table;
     return s;
-}
-
-Packing jammed_cell(int count) {
-    PackingSpec spec;
-    spec.count = count;
-    Random random(4);
-    const auto radii = draw_radii(spec, random);
-    return jam(radii, {.periodic = true}, random).packing;
 }
 
 /// The cell moves by these rates [1/s] of its size for a time.
@@ -125,7 +117,7 @@ Path path_of(const Packing& packing, double friction) {
 }
 
 TEST(RigidDemCell, TheEdgesOfTheCellDoNotMatter) {
-    const Packing packing = jammed_cell(40);
+    const Packing packing = testing::jammed_cell(40);
     const Path here = path_of(packing, 0.0);
     ASSERT_GE(here.stress.size(), 12U);
     double scale = 0.0;
@@ -146,7 +138,7 @@ TEST(RigidDemCell, TheEdgesOfTheCellDoNotMatter) {
 
 TEST(RigidDemCell, TheEnergyLedgerClosesAndShearResists) {
     for (const double friction : {0.0, 0.4}) {
-        const Path path = path_of(jammed_cell(40), friction);
+        const Path path = path_of(testing::jammed_cell(40), friction);
         EXPECT_GT(path.external_work, 0.0);
         EXPECT_LT(std::abs(path.residual), 0.01 * path.external_work) << "friction " << friction;
         const std::size_t last = path.stress.size() - 4;
@@ -157,7 +149,7 @@ TEST(RigidDemCell, TheEnergyLedgerClosesAndShearResists) {
 }
 
 TEST(RigidDemCell, CellStressIsLoveWeberAndTheViewIsConsistent) {
-    const Packing packing = jammed_cell(40);
+    const Packing packing = testing::jammed_cell(40);
     RigidDem dem(scenario_with(0.3), packing);
     const Box box = deform(dem, packing.box, {-1e-4, -1e-4, 2e-4}, 200.0);
     const GrainView view = dem.view(Need::all);
@@ -177,24 +169,17 @@ TEST(RigidDemCell, CellStressIsLoveWeberAndTheViewIsConsistent) {
 }
 
 TEST(RigidDemCell, ARestartHasTheSameBits) {
-    const Packing packing = jammed_cell(40);
-    RigidDem straight(scenario_with(0.3), packing);
-    Box box = deform(straight, packing.box, {-1e-4, -1e-4, 6e-3}, 150.0);
-    ASSERT_GT(box.flips(), 0);
-    Checkpoint middle;
-    straight.save(middle);
-    RigidDem restarted(scenario_with(0.3), packing);
-    restarted.load(middle);
-    Checkpoint again;
-    restarted.save(again);
-    EXPECT_EQ(again.numbers, middle.numbers);
-    deform(straight, box, {-1e-4, 0.0, -2e-3}, 150.0);
-    deform(restarted, box, {-1e-4, 0.0, -2e-3}, 150.0);
-    Checkpoint a, b;
-    straight.save(a);
-    restarted.save(b);
-    EXPECT_EQ(a.numbers, b.numbers);
-    EXPECT_EQ(a.integers, b.integers);
+    const Packing packing = testing::jammed_cell(40);
+    testing::expect_restart_keeps_bits(
+        [&] { return std::make_unique<RigidDem>(scenario_with(0.3), packing); },
+        [&](RigidDem& dem) {
+            const Box box = deform(dem, packing.box, {-1e-4, -1e-4, 6e-3}, 150.0);
+            EXPECT_GT(box.flips(), 0);
+            return box;
+        },
+        [](RigidDem& dem, const Box& box) {
+            deform(dem, box, {-1e-4, 0.0, -2e-3}, 150.0);
+        });
 }
 
 /// Springs in series and masses of two materials: frequency of a pair, and who is pushed how far.

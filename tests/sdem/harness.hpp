@@ -31,6 +31,17 @@ inline void switch_off_damping(Scenario& s) {
     settings(s).set("contact_damping", 0.0);
     settings(s).set("shape_damping", 0.0);
 }
+/// Equilibria instead of dynamics; forces balance to this share of the mean contact force.
+inline void set_quasi_static(Scenario& s, double tolerance) {
+    settings(s).set("driver", std::string("quasi_static"));
+    settings(s).set("tolerance", tolerance);
+}
+
+inline Scenario undamped_scenario(double nu = 0.3) {
+    Scenario s = default_scenario(nu);
+    switch_off_damping(s);
+    return s;
+}
 
 inline Packing packing_of(Box box, std::vector<Vec2> center, std::vector<double> radius) {
     return Packing{box, std::move(center), std::move(radius), {}};
@@ -41,6 +52,16 @@ inline Packing single_grain() {
 }
 inline Box far_away() {
     return Box{{-100.0, 100.0, -100.0, 100.0}};
+}
+/// side x side unequal discs that touch, in their box: at 29 x 29 threads are used.
+inline Packing touching_lattice(int side) {
+    Packing p;
+    for (int k = 0; k < side * side; ++k) {
+        p.center.emplace_back(0.5 + k % side, 0.5 + static_cast<double>(k / side));
+        p.radius.push_back(0.5 - 0.04 * std::abs(std::sin(1.7 * k)));
+    }
+    p.box.position = {0.0, static_cast<double>(side), 0.0, static_cast<double>(side)};
+    return p;
 }
 /// The reference packing of 24 discs at its rigid jamming point.
 inline Packing packing24() {
@@ -108,6 +129,15 @@ inline void close_to(Solver& solver, double width, double speed) {
 
 inline double residual(const EnergyLedger& e, double initial = 0.0) {
     return initial + e.external_work - e.kinetic - e.elastic - e.dissipated();
+}
+/// Closes the walls to the widths `from`, `from - step` ... above `to`; largest residual of the ledger there.
+inline double residual_while_closing(Solver& solver, double from, double to, double step, double speed) {
+    double largest = 0.0;
+    for (double width = from; width > to; width -= step) {
+        close_to(solver, width, speed);
+        largest = std::max(largest, std::abs(residual(solver.view(Need::base).energy)));
+    }
+    return largest;
 }
 
 }  // namespace softgrain::sdem::test

@@ -1,6 +1,7 @@
 #pragma once
 // Looks at a solver's forces and energies in states set from outside.
 #include <functional>
+#include <numbers>
 
 #include "harness.hpp"
 
@@ -84,6 +85,23 @@ inline double order_of(const std::vector<double>& error, const std::vector<doubl
 /// f'(0) by central differences of fourth order.
 inline double slope(const std::function<double(double)>& f, double h) {
     return (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h);
+}
+
+/// Angular frequency of F_xx of the only grain about 1, from its zero crossings.
+inline double free_frequency(Solver& solver, double dt, int steps) {
+    const auto strain = [&] { return state_of(solver).F[0](0, 0) - 1.0; };
+    double before = strain(), first = 0.0, last = 0.0;
+    int crossings = 0;
+    for (int k = 1; k < steps; ++k) {
+        solver.advance(still(solver), dt);
+        const double now = strain();
+        if ((now < 0.0) != (before < 0.0)) {
+            last = dt * (k - now / (now - before));
+            if (crossings++ == 0) first = last;
+        }
+        before = now;
+    }
+    return std::numbers::pi * (crossings - 1) / (last - first);
 }
 
 /// Linear and angular momentum of all grains about the origin.

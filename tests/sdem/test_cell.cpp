@@ -22,12 +22,6 @@ Packing crystal(int nx, int ny, double overlap, double disorder = 0.0) {
     p.box.periodic = true;
     return p;
 }
-Scenario undamped() {
-    Scenario s = test::default_scenario(0.3);
-    test::switch_off_damping(s);
-    return s;
-}
-
 /// -1/A dE/d(strain) by carrying all centres along with the cell, F as they are.
 Mat2 stress_by_energy(const Scenario& s, const Packing& packing) {
     const auto energy = [&](const Mat2& strain) {
@@ -57,8 +51,9 @@ Mat2 stress_by_energy(const Scenario& s, const Packing& packing) {
 
 TEST(Cell, StressIsTheDerivativeOfTheEnergyAndSymmetric) {
     const Packing packing = crystal(4, 4, 0.06, 0.01);
-    const auto solver = test::solver_for(undamped(), packing);
-    const Mat2 stress = solver->cell_stress(), expected = stress_by_energy(undamped(), packing);
+    const auto solver = test::solver_for(test::undamped_scenario(), packing);
+    const Mat2 stress = solver->cell_stress(),
+               expected = stress_by_energy(test::undamped_scenario(), packing);
     EXPECT_GT(stress.trace(), 1e-2);
     EXPECT_NEAR(stress(0, 0), expected(0, 0), 1e-8);
     EXPECT_NEAR(stress(1, 1), expected(1, 1), 1e-8);
@@ -67,7 +62,7 @@ TEST(Cell, StressIsTheDerivativeOfTheEnergyAndSymmetric) {
 
 TEST(Cell, StressIsTheVirialOfTheViewsContacts) {
     const Packing packing = crystal(4, 4, 0.06, 0.01);
-    const auto solver = test::solver_for(undamped(), packing);
+    const auto solver = test::solver_for(test::undamped_scenario(), packing);
     const GrainView v = solver->view(Need::contacts);
     EXPECT_EQ(v.contacts.size(), 48U);  // six neighbours each
     Mat2 virial = Mat2::Zero();
@@ -112,7 +107,7 @@ TEST(Cell, OneCellIsTheSameAsFourOfThem) {
 TEST(Cell, ACrystalCarriedAlongStaysACrystal) {
     // Isotropic compression of a perfect lattice: grains keep their places in the cell, forces balance. Up to
     // an overlap of 1 %: from about 1.5 % on the law's own energy is lower for unequal contacts.
-    auto solver = test::solver_for(undamped(), crystal(4, 4, 0.002));
+    auto solver = test::solver_for(test::undamped_scenario(), crystal(4, 4, 0.002));
     const double dt = 0.02;
     const std::vector<Vec2> start = crystal(4, 4, 0.002).center;
     const Box first = solver->view(Need::base).box;
@@ -137,13 +132,13 @@ TEST(Cell, TheSameLatticeByOtherVectorsGivesTheSameForces) {
     Packing packing = crystal(4, 4, 0.06, 0.01);
     packing.box.tilt = 0.45 * packing.box.width();
     for (Vec2& c : packing.center) c.x() += packing.box.shear_strain() * c.y();
-    const auto solver = test::solver_for(undamped(), packing);
+    const auto solver = test::solver_for(test::undamped_scenario(), packing);
     const GrainView v = solver->view(Need::contacts);
     ASSERT_GE(v.contacts.size(), 32U);
     for (int flips : {-2, 1, 3}) {
         Packing other = packing;
         other.box = packing.box.flipped(flips);
-        const auto flipped = test::solver_for(undamped(), other);
+        const auto flipped = test::solver_for(test::undamped_scenario(), other);
         const GrainView w = flipped->view(Need::contacts);
         ASSERT_EQ(w.contacts.size(), v.contacts.size());
         for (std::size_t k = 0; k < v.contacts.size(); ++k) {
@@ -201,7 +196,7 @@ TEST(Cell, ShearByMoreThanACellIsSmooth) {
 TEST(Cell, ALoneGrainFollowsTheFlowWithoutForce) {
     // A grain without contacts that starts with the flow stays at its place in the deforming cell.
     Packing p = crystal(4, 4, -0.2);
-    auto solver = test::solver_for(undamped(), p);
+    auto solver = test::solver_for(test::undamped_scenario(), p);
     WallMotion motion{p.box, {0.0, 0.04, 0.0, -0.03}};
     motion.tilt_rate = 0.1;
     for (int k = 0; k < 100; ++k) {

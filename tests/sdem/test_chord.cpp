@@ -28,6 +28,18 @@ double largest_error(const Chord& c, const LongChord& e) {
                      sine, middle});
 }
 
+TEST(Unit, OfAGuessInSinglePrecisionHasLengthOne) {
+    double worst = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+        const float x = std::cos(0.00628F * static_cast<float>(k)),
+                    y = std::sin(0.00628F * static_cast<float>(k));
+        const detail::Unit u(Vec2{static_cast<double>(x), static_cast<double>(y)});
+        const long double square = static_cast<long double>(u.x) * u.x + static_cast<long double>(u.y) * u.y;
+        worst = std::max(worst, static_cast<double>(std::abs(square - 1.0L)));
+    }
+    EXPECT_LT(worst, 5e-16);  // rounding of the two components
+}
+
 struct Level {
     double depth;  ///< |delta_n| / R of the smaller grain
     double strain;

@@ -210,11 +210,7 @@ TEST_P(Ledger, ClosesDuringACompaction) {
     Scenario s = test::scenario_with(nu);
     test::settings(s).set("kinematics", std::string(kinematics));
     auto solver = test::solver_for(s, test::packing24());
-    double largest = 0.0;
-    for (double width = 9.7; width > 9.1; width -= 0.1) {
-        test::close_to(*solver, width, 0.01);
-        largest = std::max(largest, std::abs(test::residual(solver->view(Need::base).energy)));
-    }
+    const double largest = test::residual_while_closing(*solver, 9.7, 9.1, 0.1, 0.01);
     const EnergyLedger e = solver->view(Need::base).energy;
     EXPECT_GT(e.external_work, 0.02);
     EXPECT_GT(e.damping, 0.0);

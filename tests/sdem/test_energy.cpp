@@ -60,11 +60,7 @@ TEST(Ledger, ResidualOfADampedCompactionFallsWithTheSquareOfTheStep) {
         Scenario s = test::default_scenario(0.3);
         test::settings(s).set("safety", safety);
         auto solver = test::solver_for(s, test::packing24());
-        double largest = 0.0;
-        for (double width = 9.7; width > 9.25; width -= 0.05) {
-            test::close_to(*solver, width, 0.01);
-            largest = std::max(largest, std::abs(test::residual(solver->view(Need::base).energy)));
-        }
+        const double largest = test::residual_while_closing(*solver, 9.7, 9.25, 0.05, 0.01);
         const EnergyLedger e = solver->view(Need::base).energy;
         EXPECT_GT(e.external_work, 0.02);
         EXPECT_GT(e.damping, 0.0);

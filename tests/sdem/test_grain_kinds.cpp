@@ -15,15 +15,9 @@ Packing one_ellipse(double aspect_ratio, double angle, const Box& box = test::fa
     p.angle = {angle};
     return p;
 }
-Scenario undamped(double nu = 0.3) {
-    Scenario s = test::default_scenario(nu);
-    test::switch_off_damping(s);
-    return s;
-}
-
 TEST(EllipticGrain, StartsWithTheAreaAxesAndAngleOfThePacking) {
     const Packing packing = test::mixture_packing();
-    Scenario s = undamped();
+    Scenario s = test::undamped_scenario();
     test::add_classes(s, 1.0, 0.3);
     auto solver = test::solver_for(s, packing);
     const GrainView v = solver->view(Need::all);
@@ -35,7 +29,7 @@ TEST(EllipticGrain, StartsWithTheAreaAxesAndAngleOfThePacking) {
                     0.0, 1e-12);
     }
     // Extent along a direction n is |shape n|: an ellipse stands exactly that far from its centre.
-    auto alone = test::solver_for(undamped(), one_ellipse(2.0, 0.6));
+    auto alone = test::solver_for(test::undamped_scenario(), one_ellipse(2.0, 0.6));
     const GrainView w = alone->view(Need::outlines);
     const Mat2 shape = one_ellipse(2.0, 0.6).shape_of(0);
     double extent = 0.0;
@@ -45,7 +39,7 @@ TEST(EllipticGrain, StartsWithTheAreaAxesAndAngleOfThePacking) {
 
 TEST(EllipticGrain, ContactsAreTheChordsOfTheirEllipses) {
     const Packing packing = test::mixture_packing();
-    Scenario s = undamped();
+    Scenario s = test::undamped_scenario();
     test::add_classes(s, 1.0, 0.3);
     auto solver = test::solver_for(s, packing);
     const auto ellipse = [&](int g) {
@@ -68,7 +62,7 @@ TEST(EllipticGrain, ContactsAreTheChordsOfTheirEllipses) {
 
 TEST(EllipticGrain, SpinsWithItsOwnInertia) {
     // A wall presses the rigid ellipse off its centre: I spin' = r x f with I = m (a^2 + b^2)/4.
-    Scenario s = undamped();
+    Scenario s = test::undamped_scenario();
     test::settings(s).set("kinematics", std::string("D2F0"));
     const double angle = 0.5, aspect = 2.5;
     const Mat2 shape = one_ellipse(aspect, angle).shape_of(0);
@@ -159,7 +153,7 @@ TEST(Classes, TheSoftGrainTakesTheDeformation) {
 
 TEST(Classes, AHardBigGrainIsAWall) {
     // Force of a unit disc against a plane wall, and against a disc 400 times as large and 1e6 as hard.
-    Scenario s = undamped();
+    Scenario s = test::undamped_scenario();
     const double depth = 0.02;
     const auto wall =
         test::solver_for(s, test::packing_of(Box{{0.0, 10.0, -20.0, 20.0}}, {{1.0 - depth, 0.0}}, {1.0}));
@@ -193,7 +187,7 @@ TEST(DilationInertia, LeavesTheRestAloneAndTheSpin) {
 }
 
 TEST(DilationInertia, KeepsEnergyAndSpin) {
-    Scenario s = undamped(0.49);
+    Scenario s = test::undamped_scenario(0.49);
     test::settings(s).set("dilation_inertia", 10.0);
     const Packing packing = one_ellipse(1.5, 0.4);
     std::vector<double> errors, steps{0.02, 0.01};
@@ -223,25 +217,13 @@ TEST(DilationInertia, KeepsEnergyAndSpin) {
 TEST(DilationInertia, SlowsTheBreathingOfAGrainAsItSays) {
     // omega^2 = 8 u''(1) / (rho R^2) / (1 + sigma), with u'' = kappa + mu/3 of the neo-Hookean grain.
     for (double sigma : {0.0, 3.0}) {
-        Scenario s = undamped();
+        Scenario s = test::undamped_scenario();
         test::settings(s).set("dilation_inertia", sigma);
         auto solver = test::solver_for(s, test::packing_of(test::far_away(), {Vec2::Zero()}, {1.0}));
         test::State state = test::state_of(*solver);
         state.F[0] *= 1.0 + 1e-5;
         test::set_state(*solver, state);
-        const double dt = 0.01;
-        double before = 1e-5, first = 0.0, last = 0.0;
-        int crossings = 0;
-        for (int k = 1; k < 3000; ++k) {
-            solver->advance(test::still(*solver), dt);
-            const double now = test::state_of(*solver).F[0](0, 0) - 1.0;
-            if ((now < 0.0) != (before < 0.0)) {
-                last = dt * (k - now / (now - before));
-                if (crossings++ == 0) first = last;
-            }
-            before = now;
-        }
-        const double omega = std::numbers::pi * (crossings - 1) / (last - first);
+        const double omega = test::free_frequency(*solver, 0.01, 3000);
         const double h = 1e-3, mu = 1.0 / 2.6, kappa = 1.0 / 1.2;
         const double stiffness =
             -test::slope([&](double d) { return LensPotential::pressure(1.0 + d, mu, kappa); }, h);

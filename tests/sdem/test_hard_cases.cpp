@@ -8,18 +8,12 @@
 namespace softgrain::sdem {
 namespace {
 
-Scenario undamped(double nu = 0.3) {
-    Scenario s = test::default_scenario(nu);
-    test::switch_off_damping(s);
-    return s;
-}
-
 TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
     double before = 0.0;
     for (double overlap : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.5}) {
         const double distance = 2.0 - overlap;
         const auto solver = test::solver_for(
-            undamped(),
+            test::undamped_scenario(),
             test::packing_of(test::far_away(), {{0.0, 0.0}, {0.6 * distance, 0.8 * distance}}, {1.0, 1.0}));
         const GrainView v = solver->view(Need::contacts);
         ASSERT_EQ(v.contacts.size(), 1U) << "overlap " << overlap;
@@ -35,7 +29,7 @@ TEST(HardCases, OverlapsFromABillionthToHalfAGrain) {
 /// The error that the run ends with when it begins like this; no grain if it does not.
 DivergedError error_of(const Packing& packing) {
     try {
-        test::solver_for(undamped(), packing);
+        test::solver_for(test::undamped_scenario(), packing);
     } catch (const DivergedError& e) {
         return e;
     }
@@ -93,7 +87,7 @@ double gradient_error(Solver& solver, const Packing& packing, const test::State&
 
 TEST(HardCases, StrainsOfSixtyPercent) {
     const Packing packing = test::packing_of(test::far_away(), {{0.0, 0.0}, {1.1, 1.2}}, {1.0, 0.9});
-    auto solver = test::solver_for(undamped(), packing);
+    auto solver = test::solver_for(test::undamped_scenario(), packing);
     test::State state = test::state_of(*solver);
     state.F[0] = test::rotation(0.5) * Vec2{1.6, 0.7}.asDiagonal() * test::rotation(0.2);
     state.F[1] = test::rotation(-0.9) * Vec2{1.5, 0.6}.asDiagonal();
@@ -107,7 +101,7 @@ TEST(HardCases, AGrainTwentyTimesAsLarge) {
     Packing packing =
         test::packing_of(test::far_away(), {{0.0, 0.0}, {0.6, 0.848}, {-0.5, -0.4}}, {1.0, 0.05, 0.05});
     packing.center[2] = Vec2{-0.8, -0.62};
-    auto solver = test::solver_for(undamped(), packing);
+    auto solver = test::solver_for(test::undamped_scenario(), packing);
     const test::State state = test::state_of(*solver);
     ASSERT_EQ(solver->view(Need::contacts).contacts.size(), 2U);
     for (std::size_t g : {0U, 1U, 2U})
@@ -134,7 +128,7 @@ TEST(HardCases, AGrainWithThirtyContacts) {
     int touching = 0;
     for (const GrainContact& c : solver->view(Need::contacts).contacts) touching += c.i == 0 ? 1 : 0;
     EXPECT_EQ(touching, 30);
-    auto still = test::solver_for(undamped(), packing);
+    auto still = test::solver_for(test::undamped_scenario(), packing);
     EXPECT_LT(gradient_error(*still, packing, test::state_of(*still), 0, 1e-5), 1e-7);
     const double energy = solver->view(Need::base).energy.elastic;
     double before = energy;
@@ -256,7 +250,7 @@ TEST(HardCases, AGrainThatComesApartEndsTheRun) {
                                        std::vector<double>(8, 1.0));
         for (std::size_t g = 0; !periodic && g < 8; ++g)
             packing.center[g].x() = 20.0 * (static_cast<double>(g) - 4.0);
-        auto solver = test::solver_for(undamped(), packing);
+        auto solver = test::solver_for(test::undamped_scenario(), packing);
         test::State state = test::state_of(*solver);
         state.F_rate[7] << 20.0, 0.0, 0.0, 20.0;
         test::set_state(*solver, state);

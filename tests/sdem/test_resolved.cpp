@@ -9,8 +9,7 @@ namespace {
 
 std::unique_ptr<Solver> quasi_static_solver(double nu, const Packing& packing, double tolerance) {
     Scenario s = test::default_scenario(nu);
-    test::settings(s).set("driver", std::string("quasi_static"));
-    test::settings(s).set("tolerance", tolerance);
+    test::set_quasi_static(s, tolerance);
     return test::solver_for(s, packing);
 }
 

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "harness.hpp"
+#include "probe.hpp"
 #include "random_ellipses.hpp"
 #include "sdem/contact.hpp"
 #include "sdem/grains.hpp"
@@ -51,7 +51,7 @@ TEST(Mollon2022, NormalForceIsEquation56And61) {
     EXPECT_EQ(opening.q + damping_without_pull(opening.q, opening.q_damping), 0.0);
 }
 
-/// Angular frequency of F(0,0) - 1 from its zero crossings.
+/// Angular frequency of F(0,0) - 1.
 double frequency(double nu, const Mat2& start, double radius, double density) {
     Scenario s = test::scenario_with(nu);
     test::switch_off_damping(s);
@@ -60,19 +60,7 @@ double frequency(double nu, const Mat2& start, double radius, double density) {
     test::State state = test::state_of(*solver);
     state.F[0] = start;
     test::set_state(*solver, state);
-    const double dt = 0.02 * solver->stable_time_step();
-    double before = start(0, 0) - 1.0, first = 0.0, last = 0.0;
-    int crossings = 0;
-    for (int k = 1; k < 6000; ++k) {
-        solver->advance(WallMotion{test::far_away(), {}}, dt);
-        const double now = test::state_of(*solver).F[0](0, 0) - 1.0;
-        if ((now < 0.0) != (before < 0.0)) {
-            last = dt * (k - now / (now - before));
-            if (crossings++ == 0) first = last;
-        }
-        before = now;
-    }
-    return std::numbers::pi * (crossings - 1) / (last - first);
+    return test::free_frequency(*solver, 0.02 * solver->stable_time_step(), 6000);
 }
 
 TEST(FreeGrain, OscillatesAtTheClosedFormFrequencies) {
