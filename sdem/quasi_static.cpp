@@ -121,15 +121,15 @@ int QuasiStaticSolver::relax() {
 }
 
 QuasiStaticSolver::Descent QuasiStaticSolver::find_accelerations() {
-    std::vector<Descent> part(blocks());
+    const Chunks grains = blocks();
+    std::vector<Descent> part(grains.count());
     const MotionInput input = motion_input();
 #pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t block_index = 0; block_index < blocks(); ++block_index) {
-        const std::size_t begin = block_index * grains_per_block,
-                          end = std::min(size(), begin + grains_per_block);
+    for (std::size_t chunk = 0; chunk < grains.count(); ++chunk) {
+        const std::size_t begin = grains.begin(chunk), end = grains.end(chunk);
         MotionBlock block;
         kick_from_rest(block, input, grains_, memory_, begin, end);
-        Descent& sum = part[block_index];
+        Descent& sum = part[chunk];
         for (std::size_t g = begin; g < end; ++g) {
             const auto l = static_cast<int>(g - begin);
             const Grain& grain = grains_.grain[g];
@@ -198,11 +198,9 @@ double QuasiStaticSolver::mean_contact_force() const {
 
 double QuasiStaticSolver::flow() {
     double work = 0.0;
-    for (std::size_t block = 0; block < blocks(); ++block) {
-        const std::size_t begin = block * grains_per_block;
-        work +=
-            flow_grains(motion_input(), grains_, memory_, begin, std::min(size(), begin + grains_per_block));
-    }
+    const Chunks grains = blocks();
+    for (std::size_t c = 0; c < grains.count(); ++c)
+        work += flow_grains(motion_input(), grains_, memory_, grains.begin(c), grains.end(c));
     return work;
 }
 

@@ -16,6 +16,7 @@
 
 #include "common/errors.hpp"
 #include "hand_made_grains.hpp"
+#include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
@@ -317,6 +318,22 @@ TEST_F(WritersTest, AFreshRunRemovesOlderFrames) {
     EXPECT_TRUE(fs::exists(run / "walls/walls_000000.vtp"));
     EXPECT_FALSE(fs::exists(run / "walls/walls_000001.vtp"));
     EXPECT_EQ(read_text(run / "walls.pvd").find("000001"), std::string::npos);
+}
+
+TEST_F(WritersTest, ZeroHasNoSign) {
+    // VTK would write -0 or 0 as the range, by which of its threads is first.
+    vtkNew<vtkPoints> points;
+    const vtkIdType origin = points->InsertNextPoint(0.0, 0.0, 0.0);
+    vtkNew<vtkCellArray> vertices;
+    vertices->InsertNextCell(1, &origin);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetVerts(vertices);
+    add_numbers(*data->GetCellData(), "zero", "", 1, 1)->SetValue(0, -0.0);
+    const fs::path file = folder.path() / "zero.vtp";
+    write_vtp(file, *data);
+    EXPECT_EQ(read_text(file).find("\"-0\""), std::string::npos);
+    EXPECT_FALSE(std::signbit(value(*read_back(file), "zero", 0)));
 }
 
 TEST_F(WritersTest, NotANumberDoesNotGetOut) {

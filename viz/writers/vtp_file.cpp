@@ -1,12 +1,14 @@
 #include "viz/writers/vtp_file.hpp"
 
 #include <fmt/format.h>
+#include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -16,8 +18,23 @@
 #include "common/io/atomic_file.hpp"
 
 namespace softgrain {
+namespace {
+
+/// -0 becomes 0. They are equal, so which of them VTK writes as an array's range depends on its threads.
+void unsign_zeros(vtkDataArray* array) {
+    auto* numbers = vtkDoubleArray::SafeDownCast(array);
+    if (numbers == nullptr) return;
+    for (vtkIdType k = 0; k < numbers->GetNumberOfValues(); ++k)
+        numbers->SetValue(k, numbers->GetValue(k) + 0.0);
+}
+
+}  // namespace
 
 void write_vtp(const std::filesystem::path& path, vtkPolyData& data) {
+    if (vtkPoints* points = data.GetPoints()) unsign_zeros(points->GetData());
+    for (vtkFieldData* fields : {static_cast<vtkFieldData*>(data.GetPointData()),
+                                 static_cast<vtkFieldData*>(data.GetCellData()), data.GetFieldData()})
+        for (int k = 0; k < fields->GetNumberOfArrays(); ++k) unsign_zeros(fields->GetArray(k));
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(&data);
     writer->SetDataModeToAppended();
