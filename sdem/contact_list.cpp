@@ -82,6 +82,12 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
     wall_opening.assign(wall_pair_.size(), Opening{});
 }
 
+bool ContactList::reach_below(std::size_t first, std::size_t begin, std::size_t end) const {
+    for (std::size_t g = begin; g < end && first > 0; ++g)
+        if (!second(g).empty() && static_cast<std::size_t>(pairs()[second(g).front()].i) < first) return true;
+    return false;
+}
+
 void ContactList::find_shares(const Grains& grains) {
     const auto weight = [&](int g) {
         const auto k = static_cast<std::size_t>(g);

@@ -58,6 +58,8 @@ class ContactList {
     std::span<const std::uint32_t> second(std::size_t g) const {
         return {second_.data() + second_start_[g], second_start_[g + 1] - second_start_[g]};
     }
+    /// True if any of the grains [begin, end) may touch one before `first`.
+    bool reach_below(std::size_t first, std::size_t begin, std::size_t end) const;
     std::size_t wall_first(std::size_t g) const { return wall_start_[g]; }
 
   private:

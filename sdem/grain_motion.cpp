@@ -5,6 +5,31 @@
 namespace softgrain::sdem {
 namespace {
 
+/// v(x) = v + L (x - x0)
+struct AffineFlow {
+    Vec2 v, x0;
+    Mat2 L;
+
+    AffineFlow(const WallMotion& cell, const Box& box)
+        : v(cell.velocity[0], cell.velocity[2]), x0(box.origin()), L(cell.velocity_gradient()) {}
+};
+
+/// Velocities of the block follow the change of the flow; finds their flux.
+void follow_flow(MotionBlock& block, const AffineFlow& last, const AffineFlow& now) {
+    const Mat2 change = now.L - last.L;
+    const Vec2 jump = now.v - last.v;
+    block.flux = Tensor{0.0, 0.0, 0.0, 0.0};
+    for (int l = 0; l < block.count; ++l) {
+        const double rx = block.x[l] - now.x0.x(), ry = block.y[l] - now.x0.y();
+        block.flow_vx[l] = now.v.x() + (now.L(0, 0) * rx + now.L(0, 1) * ry);
+        block.flow_vy[l] = now.v.y() + (now.L(1, 0) * rx + now.L(1, 1) * ry);
+        block.vx[l] += jump.x() + (change(0, 0) * rx + change(0, 1) * ry);
+        block.vy[l] += jump.y() + (change(1, 0) * rx + change(1, 1) * ry);
+        const double ux = block.vx[l] - block.flow_vx[l], uy = block.vy[l] - block.flow_vy[l];
+        block.flux = block.flux + block.mass[l] * Tensor{ux * ux, ux * uy, uy * ux, uy * uy};
+    }
+}
+
 void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains, const GrainMemory& memory,
                 std::size_t begin, std::size_t end) {
     block.count = static_cast<int>(end - begin);
@@ -44,15 +69,18 @@ void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
             block.caps[l] = Mollon2022::cap_fraction(sums.caps, covered_outline(in.forces.contacts.list, g),
                                                      block.area[l]);
         }
-        const Vec2 flow = in.flow.box.periodic ? in.flow.affine_velocity(grains.center[g]) : Vec2::Zero();
-        block.flow_vx[l] = flow.x();
-        block.flow_vy[l] = flow.y();
         if (in.law.imposes_area) block.caps_before[l] = memory.caps_before[g];
         if (in.law.plastic) {
             block.plastic_xx[l] = memory.plastic_xx[g];
             block.plastic_xy[l] = memory.plastic_xy[g];
             block.plastic_yy[l] = memory.plastic_yy[g];
         }
+    }
+    if (in.flow.box.periodic) {
+        follow_flow(block, AffineFlow(in.last_flow, in.flow.box), AffineFlow(in.flow, in.flow.box));
+    } else {
+        std::fill_n(block.flow_vx, block.count, 0.0);
+        std::fill_n(block.flow_vy, block.count, 0.0);
     }
 }
 
@@ -70,13 +98,14 @@ void keep_flow(const MotionBlock& block, GrainMemory& memory, std::size_t g, int
     memory.plastic_yy[g] = block.plastic_yy[l];
 }
 
-StepWork work_of(const MotionBlock& block, const MotionLaw& law) {
+StepWork work_of(const MotionBlock& block, const MotionInput& in) {
     StepWork work;
+    if (in.flow.box.periodic) work.flux = block.flux;
     for (int l = 0; l < block.count; ++l) {
         work.stored += block.stored[l];
         work.damped += block.damped[l];
         work.kinetic += block.kinetic[l];
-        if (law.plastic) work.plastic += block.plastic_work[l];
+        if (in.law.plastic) work.plastic += block.plastic_work[l];
     }
     return work;
 }
@@ -103,14 +132,14 @@ StepWork move_grains(const MotionInput& in, Grains& grains, GrainMemory& memory,
         if (in.law.plastic) keep_flow(block, memory, g, l);
         if (!sound(grain, block.moved[l], block.det[l], block.reach[l])) bad = std::min(bad, g);
     }
-    return work_of(block, in.law);
+    return work_of(block, in);
 }
 
 StepWork kick_work(const MotionInput& in, const Grains& grains, const GrainMemory& memory,
                    const StepTimes& times, std::size_t begin, std::size_t end) {
     MotionBlock block;
     kick_block(block, in, grains, memory, times, begin, end);
-    return work_of(block, in.law);
+    return work_of(block, in);
 }
 
 void kick_from_rest(MotionBlock& block, const MotionInput& in, const Grains& grains,

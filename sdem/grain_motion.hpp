@@ -28,13 +28,17 @@ struct StepWork {
     double damped = 0.0;   ///< by dashpots and shape damping [J]
     double plastic = 0.0;  ///< by plastic flow [J]
     double kinetic = 0.0;  ///< at the end of the kick [J]
+    /// sum m u (x) u of the velocities u against the flow before the kick; periodic cells only [J]
+    Tensor flux{0.0, 0.0, 0.0, 0.0};
 };
 
 struct MotionInput {
     ForceSource forces;
     std::span<const double> stress;  ///< [n] P of Pressures, empty for mollon2022
     MotionLaw law;
-    WallMotion flow;  ///< of a periodic cell: works are done by the motion against it
+    /// Of a periodic cell, before and from now on: it takes the grains along, so velocities are kept against
+    /// it, and works are done by the motion against it.
+    WallMotion last_flow, flow;
 };
 
 /// A grain whose det F is not above this counts as crushed.

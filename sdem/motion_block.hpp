@@ -26,6 +26,7 @@ struct MotionBlock {
     alignas(64) Lane mu, kappa, damping_rate, dilation_inertia, yield;
     // Forces.
     alignas(64) Lane flow_vx, flow_vy;  // velocity of the cell's flow, zero without one
+    Tensor flux;                        // sum m u (x) u of the velocities u against it
     alignas(64) Lane fx, fy, damping_fx, damping_fy, caps, pressure;
     TensorLanes moment, damping_moment;  // conjugate to F: in units of M F''
     // Plastic state.

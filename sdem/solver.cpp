@@ -16,6 +16,8 @@ namespace softgrain::sdem {
 namespace {
 
 constexpr std::size_t pairs_per_chunk = 128;
+/// Grains whose contacts and pressures are found in one go: as many as a core's own cache holds.
+constexpr std::size_t grains_per_part = 8 * grains_per_block;
 constexpr int steps_per_time_step_check = 16;
 constexpr double worth_a_change = 1.25;
 
@@ -86,7 +88,7 @@ ForceSource SoftDiscSolver::forces() const {
 }
 
 MotionInput SoftDiscSolver::motion_input() const {
-    return {forces(), pressures_.stress, options_.motion, motion_};
+    return {forces(), pressures_.stress, options_.motion, motion_, motion_};
 }
 
 /// E, its mean over the grains' areas.
@@ -101,39 +103,27 @@ double SoftDiscSolver::stress_scale() const {
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     const StepTimes times{2.0 * lag_, lag_ + 0.5 * dt, dt};
-    const WallMotion before = motion_;
-    const bool periodic = walls.box.periodic;
-    const bool flow_changes =
-        periodic && (walls.velocity != before.velocity || walls.tilt_rate != before.tilt_rate);
-    motion_ = walls;
-    const MotionInput input = motion_input();
-
-    struct OfBlock {
-        StepWork work;
-        Mat2 flux = Mat2::Zero();
-    };
+    MotionInput input = motion_input();
+    input.flow = walls;
     const Chunks grains = blocks();
-    std::vector<OfBlock> part(grains.count());
+    std::vector<StepWork> part(grains.count());
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
-    for (std::size_t block = 0; block < grains.count(); ++block) {
-        const std::size_t begin = grains.begin(block), end = grains.end(block);
-        if (periodic) part[block].flux = momentum_flux(before, begin, end);
-        if (flow_changes) follow_flow(before, begin, end);
-        part[block].work = move_grains(input, grains_, memory_, times, begin, end, bad);
+    for (std::size_t c = 0; c < grains.count(); ++c)
+        part[c] = move_grains(input, grains_, memory_, times, grains.begin(c), grains.end(c), bad);
+    Tensor flux{0.0, 0.0, 0.0, 0.0};
+    for (const StepWork& work : part) {
+        if (!has_potential()) ledger_.elastic += work.stored;
+        ledger_.damping += work.damped;
+        ledger_.plastic += work.plastic;
+        flux = flux + work.flux;
     }
-    Mat2 flux = Mat2::Zero();
-    for (const OfBlock& p : part) flux += p.flux;
-    add_boundary_work(ledger_, before, flux, lag_);
+    add_boundary_work(ledger_, motion_, flux, lag_);
     add_boundary_work(ledger_, walls, flux, 0.5 * dt);
-    for (const OfBlock& p : part) {
-        if (!has_potential()) ledger_.elastic += p.work.stored;
-        ledger_.damping += p.work.damped;
-        ledger_.plastic += p.work.plastic;
-    }
     time_ += dt;
     lag_ = 0.5 * dt;
     ++steps_;
+    motion_ = walls;
     motion_.box = walls.after(dt);
     lattice_ = cell().box;
     grains_.center.swap(grains_.next_center);  // next_center now holds the last one
@@ -145,19 +135,6 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
 void SoftDiscSolver::refresh_contacts(double dt) {
     if (contacts_.stale(grains_, lattice_)) rebuild_contacts();
     update_contacts(dt);
-}
-
-/// A periodic cell that changes its velocity takes the grains along: velocities are kept against its flow.
-void SoftDiscSolver::follow_flow(const WallMotion& before, std::size_t begin, std::size_t end) {
-    WallMotion old = before;
-    old.box = motion_.box;
-    for (std::size_t g = begin; g < end; ++g) {
-        Grain& grain = grains_.grain[g];
-        const Vec2 x{grain.x, grain.y};
-        const Vec2 change = motion_.affine_velocity(x) - old.affine_velocity(x);
-        grain.vx += change.x();
-        grain.vy += change.y();
-    }
 }
 
 /// Candidates afresh. In a periodic cell grains are put back into it, on the least tilted lattice.
@@ -191,10 +168,8 @@ void SoftDiscSolver::rebuild_contacts() {
 
 void SoftDiscSolver::update_contacts(double dt) {
     find_contacts();
-    if (has_potential()) find_all_pressures();
-    if (options_.sliding.acts()) slide(dt);
+    find_forces(dt);
     sum_wall_forces();
-    if (motion_.box.periodic) sum_cell_stress();
     limit_time_step(dt);
 }
 
@@ -211,6 +186,7 @@ void SoftDiscSolver::limit_time_step(double dt) {
     }
 }
 
+/// Contacts, and the pressures of the grains while their contacts are still at hand.
 void SoftDiscSolver::find_contacts() {
     const WallMotion lattice = cell();
     const bool with_rates = options_.contact_damping > 0.0 || options_.sliding.slides();
@@ -221,21 +197,40 @@ void SoftDiscSolver::find_contacts() {
                          contacts_.pair_history.slip_rate};
     const WallInput walls{grains_, lattice, options_.motion.contact_law, options_.contact_damping};
     guess_before_.resize(contacts_.guess.size());
-    const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
-    const Chunks wall_pairs(contacts_.wall_pairs().size(), pairs_per_chunk);
-    std::vector<PairNews> pair_news(pairs.count());
-    std::vector<WallNews> wall_news(wall_pairs.count());
+    if (has_potential()) pressures_.side.resize(contacts_);
+    const Chunks parts(size(), grains_per_part), grains = blocks();
+    std::vector<PairNews> pair_news(parts.count());
+    std::vector<WallNews> wall_news(parts.count());
+    std::vector<std::size_t> crushed(grains.count(), size());
+    const auto press = [&](std::size_t block) {
+        crushed[block] = find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio, contacts_,
+                                        pressures_, grains.begin(block), grains.end(block));
+    };
 #pragma omp parallel if (threads_pay_off())
     {
-#pragma omp for schedule(static) nowait
-        for (std::size_t c = 0; c < wall_pairs.count(); ++c)
-            wall_news[c] = evaluate_walls(walls, contacts_, wall_pairs.begin(c), wall_pairs.end(c));
+        // A thread does the parts from `first` on, one after the other: all contacts of a grain are then
+        // known but for those with grains before `first`.
+        std::size_t first = size();
+        std::vector<std::size_t> later;
 #pragma omp for schedule(static)
-        for (std::size_t c = 0; c < pairs.count(); ++c) {
-            const auto guess = contacts_.guess.begin();
-            std::copy(guess + pairs.begin(c), guess + pairs.end(c), guess_before_.begin() + pairs.begin(c));
-            pair_news[c] = evaluate_pairs(in, out, pairs.begin(c), pairs.end(c));
+        for (std::size_t part = 0; part < parts.count(); ++part) {
+            const std::size_t begin = parts.begin(part), end = parts.end(part);
+            const std::size_t pairs = contacts_.first(begin), pairs_end = contacts_.first(end);
+            first = std::min(first, begin);
+            std::copy(contacts_.guess.begin() + pairs, contacts_.guess.begin() + pairs_end,
+                      guess_before_.begin() + pairs);
+            pair_news[part] = evaluate_pairs(in, out, pairs, pairs_end);
+            wall_news[part] =
+                evaluate_walls(walls, contacts_, contacts_.wall_first(begin), contacts_.wall_first(end));
+            if (!has_potential()) continue;
+            for (std::size_t block = begin / grains_per_block;
+                 block < grains.count() && grains.begin(block) < end; ++block)
+                if (contacts_.reach_below(first, grains.begin(block), grains.end(block)))
+                    later.push_back(block);
+                else
+                    press(block);
         }
+        for (const std::size_t block : later) press(block);
     }
     closed_pairs_.clear();
     closed_walls_.clear();
@@ -250,40 +245,40 @@ void SoftDiscSolver::find_contacts() {
                                 "the grain went through a wall, or its cap is too deep for Eq. 57");
         closed_walls_.insert(closed_walls_.end(), n.closed.begin(), n.closed.end());
     }
-}
-
-void SoftDiscSolver::find_all_pressures() {
-    pressures_.side.resize(contacts_);
-    const Chunks grains = blocks(), pairs(contacts_.pairs().size(), pairs_per_chunk);
-    std::size_t bad = size();
-#pragma omp parallel if (threads_pay_off())
-    {
-#pragma omp for schedule(static) reduction(min : bad)
-        for (std::size_t c = 0; c < grains.count(); ++c)
-            bad = std::min(bad, find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio,
-                                               contacts_, pressures_, grains.begin(c), grains.end(c)));
-#pragma omp for schedule(static)
-        for (std::size_t c = 0; c < pairs.count(); ++c)
-            find_pair_forces(pressures_.side, contacts_, pairs.begin(c), pairs.end(c));
-    }
-    find_wall_forces(pressures_.side, contacts_);
+    const std::size_t bad = *std::min_element(crushed.begin(), crushed.end());
     if (bad < size())
         throw DivergedError(packing_index(bad), "area", time_,
                             "its contacts have squeezed the grain to nothing");
 }
 
-void SoftDiscSolver::slide(double dt) {
+/// Forces of the contacts, what they remember, and the stress of a cell.
+void SoftDiscSolver::find_forces(double dt) {
+    struct OfPart {
+        SlidingWork work;
+        CellStress stress;
+    };
+    const bool slides = options_.sliding.acts(), periodic = motion_.box.periodic;
     const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
-    std::vector<SlidingWork> work(pairs.count());
+    std::vector<OfPart> part(pairs.count());
 #pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t c = 0; c < pairs.count(); ++c)
-        work[c] = slide_pairs(options_.sliding, grains_, contacts_, dt, pairs.begin(c), pairs.end(c));
-    SlidingWork sum;
-    for (const SlidingWork& w : work) sum.add(w);
-    sum.add(slide_walls(options_.sliding, grains_, contacts_, dt));
-    ledger_.friction += sum.friction;
-    ledger_.adhesion += sum.adhesion;
-    if (!has_potential()) ledger_.elastic -= sum.friction + sum.adhesion;
+    for (std::size_t c = 0; c < pairs.count(); ++c) {
+        const std::size_t begin = pairs.begin(c), end = pairs.end(c);
+        if (has_potential()) find_pair_forces(pressures_.side, contacts_, begin, end);
+        if (slides) part[c].work = slide_pairs(options_.sliding, grains_, contacts_, dt, begin, end);
+        for (std::size_t k = begin; periodic && k < end; ++k) add_stress(part[c].stress, k);
+    }
+    if (has_potential()) find_wall_forces(pressures_.side, contacts_);
+    SlidingWork work;
+    if (slides) work = slide_walls(options_.sliding, grains_, contacts_, dt);
+    cell_stress_ = CellStress{};
+    for (const OfPart& p : part) {
+        work.add(p.work);
+        cell_stress_.total += p.stress.total / motion_.box.area();
+        cell_stress_.damping += p.stress.damping / motion_.box.area();
+    }
+    ledger_.friction += work.friction;
+    ledger_.adhesion += work.adhesion;
+    if (!has_potential()) ledger_.elastic -= work.friction + work.adhesion;
 }
 
 void SoftDiscSolver::sum_wall_forces() {
@@ -302,21 +297,8 @@ void SoftDiscSolver::sum_wall_forces() {
     }
 }
 
-/// Love-Weber stress of the cell, compression positive: (1/A) sum f on j (x) branch from i to j.
-void SoftDiscSolver::sum_cell_stress() {
-    const Chunks pairs(contacts_.pairs().size(), pairs_per_chunk);
-    std::vector<CellStress> part(pairs.count());
-#pragma omp parallel for schedule(static) if (threads_pay_off())
-    for (std::size_t c = 0; c < pairs.count(); ++c)
-        for (std::size_t k = pairs.begin(c); k < pairs.end(c); ++k) add_stress(part[c], k);
-    cell_stress_ = CellStress{};
-    for (const CellStress& p : part) {
-        cell_stress_.total += p.total / motion_.box.area();
-        cell_stress_.damping += p.damping / motion_.box.area();
-    }
-}
-
-/// What pair k adds, times the area of the cell.
+/// Pair k's share in the Love-Weber stress of the cell, compression positive, times its area: f on j (x)
+/// branch from i to j.
 void SoftDiscSolver::add_stress(CellStress& sum, std::size_t k) const {
     const Contact& c = contacts_.pair_contact[k];
     if (!c.touching()) return;

@@ -79,17 +79,14 @@ class SoftDiscSolver : public Solver {
     void place(const Packing& packing);
     void rebuild_contacts();
     void find_contacts();
-    void find_all_pressures();
-    void slide(double dt);
+    void find_forces(double dt);
     void sum_wall_forces();
     struct CellStress {
         Mat2 total = Mat2::Zero(), damping = Mat2::Zero();
     };
-    void sum_cell_stress();
     void add_stress(CellStress& sum, std::size_t k) const;
-    void follow_flow(const WallMotion& before, std::size_t begin, std::size_t end);
-    Mat2 momentum_flux(const WallMotion& cell, std::size_t begin, std::size_t end) const;
-    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Mat2& flux, double dt) const;
+    void add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Tensor& flux,
+                           double dt) const;
     double time_step_share() const;
     void limit_time_step(double dt);
     void heed_closed_contacts();

@@ -11,26 +11,16 @@
 
 namespace softgrain::sdem {
 
-/// Flux of the momentum that the grains [begin, end) carry against the flow of the cell, times its area.
-Mat2 SoftDiscSolver::momentum_flux(const WallMotion& cell, std::size_t begin, std::size_t end) const {
-    Mat2 flux = Mat2::Zero();
-    for (std::size_t g = begin; g < end; ++g) {
-        const Grain& grain = grains_.grain[g];
-        const Vec2 u = Vec2{grain.vx, grain.vy} - cell.affine_velocity(Vec2{grain.x, grain.y});
-        flux += grain.mass * u * u.transpose();
-    }
-    return flux;
-}
-
 /// Work of walls or cell that move like this for dt; the share that dashpots at the boundary take goes to
-/// `damping`. Without a potential the rest counts as stored.
-void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Mat2& flux,
+/// `damping`. Without a potential the rest counts as stored. flux: of the momentum that grains carry against
+/// the flow of the cell, times its area.
+void SoftDiscSolver::add_boundary_work(EnergyLedger& ledger, const WallMotion& walls, const Tensor& flux,
                                        double dt) const {
     double work = 0.0, damped = 0.0;
     if (walls.box.periodic) {
         const Mat2 L = walls.velocity_gradient();
         const double area = walls.box.area();
-        work = -dt * (area * cell_stress_.total + flux).cwiseProduct(L).sum();
+        work = -dt * (area * cell_stress_.total + matrix_of(flux)).cwiseProduct(L).sum();
         damped = -dt * area * cell_stress_.damping.cwiseProduct(L).sum();
     } else {
         for (std::size_t w = 0; w < 4; ++w) {
@@ -92,8 +82,7 @@ double SoftDiscSolver::potential_energy() const {
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
-    const Mat2 flux = motion_.box.periodic ? momentum_flux(motion_, 0, size()) : Mat2::Zero();
-    add_boundary_work(ledger, motion_, flux, lag_);
+    Tensor flux{0.0, 0.0, 0.0, 0.0};
     const MotionInput input = motion_input();
     const Chunks grains = blocks();
     for (std::size_t block = 0; block < grains.count(); ++block) {
@@ -102,7 +91,9 @@ EnergyLedger SoftDiscSolver::energy() const {
         ledger.damping += work.damped;
         ledger.kinetic += work.kinetic;
         if (!has_potential()) ledger.elastic += work.stored;
+        flux = flux + work.flux;
     }
+    add_boundary_work(ledger, motion_, flux, lag_);
     if (has_potential()) ledger.elastic = potential_energy();
     return ledger;
 }
