@@ -49,7 +49,7 @@ TEST_P(Collision, EnergyIsKeptToTheSquareOfTheStepAndMomentaToRounding) {
         steps.push_back(dt);
         RecordProperty(fmt::format("error_{}", dt), fmt::format("{:.1e}", error));
     }
-    EXPECT_LT(errors[1], 6e-4);               // 0.04 R sqrt(rho/E)
+    EXPECT_LT(errors[1], 6e-4);                     // 0.04 R sqrt(rho/E)
     EXPECT_GT(test::order_of(errors, steps), 1.5);  // largest errors, met at other moments with other steps
 }
 INSTANTIATE_TEST_SUITE_P(Kinematics, Collision, testing::Values("D2F3", "D2F1", "D2F0"));
