@@ -2,6 +2,7 @@
 #include "sdem/solver.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,14 @@ constexpr std::size_t pairs_per_chunk = 128;
 constexpr std::size_t grains_per_part = 8 * grains_per_block;
 constexpr int steps_per_time_step_check = 16;
 constexpr double worth_a_change = 1.25;
+/// Fewer grains than this gain nothing by threads.
+constexpr std::size_t worth_threads = 400;
 
 }  // namespace
 
 SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packing& packing,
                                const Options& options)
-    : options_(options) {
+    : options_(options), threads_(packing.size() >= worth_threads ? omp_get_max_threads() : 1) {
     motion_.box = lattice_ = packing.box;
     skin_ = options.skin * packing.mean_radius();
     grains_.material = std::move(material);
@@ -167,8 +170,10 @@ void SoftDiscSolver::rebuild_contacts() {
 }
 
 void SoftDiscSolver::update_contacts(double dt) {
+    const double start = omp_get_wtime();
     find_contacts();
     find_forces(dt);
+    threads_.note(omp_get_wtime() - start);
     sum_wall_forces();
     limit_time_step(dt);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/solver.hpp"
+#include "common/thread_choice.hpp"
 #include "sdem/chunks.hpp"
 #include "sdem/contact_list.hpp"
 #include "sdem/geometry/clipped_ellipse.hpp"
@@ -51,7 +52,7 @@ class SoftDiscSolver : public Solver {
     /// Elastic energy of the grains, and with that of springs and adhesion [J].
     double grain_energy() const;
     double potential_energy() const;
-    bool threads_pay_off() const { return size() >= 800; }
+    bool threads_pay_off() const { return threads_.parallel(); }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
     ContactView contact_view() const { return {contacts_, grains_.center, lattice_}; }
@@ -72,6 +73,7 @@ class SoftDiscSolver : public Solver {
     double time_ = 0.0;
     double lag_ = 0.0;  ///< by how much velocities are behind positions: half a step [s]
     std::array<Vec2, 4> wall_force_{};
+    ThreadChoice threads_;
     EnergyLedger
         ledger_;  ///< up to half a step before now; kinetic not used, elastic only without a potential
 

@@ -59,8 +59,9 @@ void SoftDiscSolver::heed_closed_contacts() {
         note(contacts_.pairs()[k].j, fresh);
     }
     for (const std::size_t w : closed_walls_) note(contacts_.wall_pairs()[w].grain, wall_restraint(w));
+    const double before = time_step_;
     for (const std::size_t g : touched) {
-        if (time_step_share() * grain_time_step(g, restraint_[g]) >= time_step_) continue;
+        if (time_step_share() * grain_time_step(g, restraint_[g]) >= before) continue;
         Restraint sum;
         contact_view().each_side_of(g, [&](const Side& side) {
             sum.add(side.wall() ? wall_restraint(side.index) : pair_restraint(side.index));

@@ -1,0 +1,35 @@
+#pragma once
+// Whether threads pay off, decided from measured times: it depends on the size of the work, on the machine,
+// and on what else runs there. Where other programs need the cores, a loop shared among threads can take a
+// hundred times as long. For work whose results do not depend on the number of threads.
+
+namespace softgrain {
+
+/// For work done in many rounds that take about the same time each.
+class ThreadChoice {
+  public:
+    /// most_threads: that may be used at all.
+    explicit ThreadChoice(int most_threads) : parallel_(most_threads > 1), never_(most_threads <= 1) {}
+
+    /// Whether the next round should use threads.
+    bool parallel() const { return parallel_; }
+    /// Takes note of how long a round took, done as parallel() said [s].
+    void note(double seconds);
+
+    /// Rounds between two decisions.
+    static constexpr int window = 32;
+    /// Windows without threads after threads have failed: the first time, and at most.
+    static constexpr int first_pause = 2, longest_pause = 256;
+    /// Windows with threads before their absence is tried again.
+    static constexpr int longest_trust = 64;
+
+  private:
+    void stop_threads(int pause);
+
+    bool parallel_, never_;
+    int rounds_ = 0, windows_ = 0;  ///< windows since the last change
+    int pause_ = first_pause, wait_ = 1;
+    double spent_ = 0.0, alone_ = -1.0;  ///< time of this window, and of one without threads; < 0 if unknown
+};
+
+}  // namespace softgrain
