@@ -207,6 +207,7 @@ void SoftDiscSolver::find_contacts() {
     std::vector<PairNews> pair_news(parts.count());
     std::vector<WallNews> wall_news(parts.count());
     std::vector<std::size_t> crushed(grains.count(), size());
+    std::vector<char> later(grains.count(), 0);
     const auto press = [&](std::size_t block) {
         crushed[block] = find_pressures(grains_, options_.motion.grain_law, smallest_area_ratio, contacts_,
                                         pressures_, grains.begin(block), grains.end(block));
@@ -216,7 +217,6 @@ void SoftDiscSolver::find_contacts() {
         // A thread does the parts from `first` on, one after the other: all contacts of a grain are then
         // known but for those with grains before `first`.
         std::size_t first = size();
-        std::vector<std::size_t> later;
 #pragma omp for schedule(static)
         for (std::size_t part = 0; part < parts.count(); ++part) {
             const std::size_t begin = parts.begin(part), end = parts.end(part);
@@ -231,11 +231,13 @@ void SoftDiscSolver::find_contacts() {
             for (std::size_t block = begin / grains_per_block;
                  block < grains.count() && grains.begin(block) < end; ++block)
                 if (contacts_.reach_below(first, grains.begin(block), grains.end(block)))
-                    later.push_back(block);
+                    later[block] = 1;
                 else
                     press(block);
         }
-        for (const std::size_t block : later) press(block);
+#pragma omp for schedule(static, 1)
+        for (std::size_t block = 0; block < grains.count(); ++block)
+            if (later[block] != 0) press(block);
     }
     closed_pairs_.clear();
     closed_walls_.clear();

@@ -199,7 +199,7 @@ TEST(TimeStep, PredictedLimitIsNearTheMeasuredOne) {
                                fmt::format("{:.1f}", ratio));
                 // The bound is a sum of worst cases: never above the true limit by the default safety of 0.8.
                 EXPECT_GT(ratio, 0.85) << "nu " << nu << " damping " << damping << " fraction " << fraction;
-                EXPECT_LT(ratio, 3.5) << "nu " << nu << " damping " << damping << " fraction " << fraction;
+                EXPECT_LT(ratio, 3.0) << "nu " << nu << " damping " << damping << " fraction " << fraction;
             }
 }
 
