@@ -3,7 +3,7 @@
 #   replicate.sh [--quick] [--keep] [--large] [--out FOLDER]
 # --quick: small samples, two seeds, about a minute; its document and figures stay in FOLDER (results/replicate_quick)
 # --keep: simulations that are in FOLDER are not run again
-# --large: also 10 000 grains (about half an hour more); without it that table stays as it is
+# --large: also 10 000 grains (about five minutes more); without it that table stays as it is
 # SOFTGRAIN: the program, build/release/bin/softgrain if not set
 set -euo pipefail
 cd "$(dirname "$0")/../.."
