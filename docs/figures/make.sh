@@ -2,7 +2,7 @@
 # Makes every number and picture of the README anew (about three minutes). Run after ./bootstrap.sh build.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-softgrain=build/release/bin/softgrain
+softgrain=${SOFTGRAIN:-build/release/bin/softgrain}
 out=results/readme
 figures=docs/figures
 rm -rf "$out"
