@@ -134,7 +134,7 @@ void scenario_options(CLI::App& command, Arguments& a) {
 void run_options(CLI::App& command, Arguments& a) {
     scenario_options(command, a);
     command.add_option("--out", a.out, "folder for the results")->required();
-    command.add_option("--threads", a.threads, "number of threads; the results do not depend on it")
+    command.add_option("--threads", a.threads, "most threads to use; the results do not depend on it")
         ->default_val(omp_get_num_procs())
         ->check(CLI::Range(1, 1024));
     command.add_flag("--resume", a.resume, "go on from the last checkpoint in the folder");

@@ -21,7 +21,7 @@ constexpr std::size_t pairs_per_chunk = 128;
 constexpr std::size_t grains_per_part = 8 * grains_per_block;
 constexpr int steps_per_time_step_check = 16;
 constexpr double worth_a_change = 1.25;
-/// Fewer grains than this gain nothing by threads.
+/// Threads are not tried with fewer grains.
 constexpr std::size_t worth_threads = 400;
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What every method must keep, whatever its model of a grain.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -168,6 +169,7 @@ TEST_P(Contract, TheEnergyLedgerCloses) {
     const double residual = after.external_work + before.kinetic + before.elastic -
                             (after.kinetic + after.elastic + after.dissipated());
     ASSERT_GT(after.external_work, 0.0);
+    RecordProperty("residual", fmt::format("{:.1e}", residual / after.external_work));
     EXPECT_LE(std::abs(residual), GetParam().ledger * after.external_work);
     EXPECT_GE(after.damping, 0.0);
     EXPECT_GE(after.friction, 0.0);
