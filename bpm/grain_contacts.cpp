@@ -22,15 +22,16 @@ std::size_t at(int k) {
 void append_disc_touches(const ContactDynamics& solved, const GrainContactInput& in,
                          std::vector<Touch>& touches) {
     const ContactRows& rows = solved.rows();
-    for (std::size_t k = rows.size() == 0 ? 0 : rows.within_groups(); k < rows.size(); ++k) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::size_t i = at(rows.i[k]);
         const std::size_t j = at(rows.j[k]);
+        if (in.discs.group[i] == in.discs.group[j]) continue;
         const Vec2 line = in.discs.x[j] - in.discs.x[i];
         const double gap = line.norm() - in.discs.radius[i] - in.discs.radius[j];
         if (gap >= in.touch_gap && rows.normal[k] == 0.0) continue;
         const double scale = solved.reduced_mass(k, in.discs.mass) / in.step;
         const Vec2 along = scale * rows.normal[k] * rows.direction[k];
-        const Vec2 across = scale * rows.tangential[k] * perpendicular(rows.direction[k]);
+        const Vec2 across = scale * rows.tangential_of(k) * perpendicular(rows.direction[k]);
         const Vec2 point = in.discs.x[i] + line.normalized() * (in.discs.radius[i] + 0.5 * gap);
         Touch touch{in.discs.group[i],
                     in.discs.group[j],

@@ -43,7 +43,7 @@ std::span<const KeySpec> keys() {
          {1.0, 1e6}},
         {"over_relaxation",
          KeyType::number,
-         1.7,
+         1.8,
          "",
          "of the contact solver; rows with friction use 1",
          {0.0, 2.0, true, true}},

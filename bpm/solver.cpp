@@ -98,8 +98,13 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
       maximum_force_(settings.attraction_stress * diameter_),
       time_step_(settings.step * std::sqrt(mean_of(mass_) * diameter_ / maximum_force_)),
       attraction_({maximum_force_}, grain_start_, radius_, attraction_skin * diameter_),
-      contacts_({settings.tolerance * diameter_, contact_skin * diameter_, settings.max_iterations,
-                 settings.over_relaxation, friction_, largest_push * diameter_}),
+      contacts_({.tolerance = settings.tolerance * diameter_,
+                 .skin = contact_skin * diameter_,
+                 .max_iterations = settings.max_iterations,
+                 .over_relaxation = settings.over_relaxation,
+                 .within = {},
+                 .between = {.friction = friction_},
+                 .largest_push = largest_push * diameter_}),
       box_(packing.box),
       reference_area_(std::move(assembly.reference_area)) {
     for (std::size_t g = 0; g < grains(); ++g) {
@@ -164,10 +169,7 @@ void BpmSolver::step(const WallMotion& walls, double h) {
     last_step_ = h;
     box_ = walls.after(h);
 
-    double deepest = 0.0;
-    for (double gap_speed : contacts_.rows().gap_speed) deepest = std::max(deepest, -gap_speed);
-    for (double gap_speed : contacts_.wall_rows().gap_speed) deepest = std::max(deepest, -gap_speed);
-    penetration_ = deepest * h / diameter_;
+    penetration_ = contact_result_.penetration / diameter_;
 
     wall_force_.fill(Vec2::Zero());
     const WallRows& rows = contacts_.wall_rows();
@@ -190,7 +192,8 @@ void BpmSolver::account(const WallMotion& walls, double h) {
     double rubbed = 0.0;
     if (friction_ > 0.0) {
         const ContactRows& rows = contacts_.rows();
-        for (std::size_t k = rows.within_groups(); k < rows.size(); ++k) {
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (rows.tangential[k] == 0.0) continue;
             const std::size_t i = at(rows.i[k]);
             const std::size_t j = at(rows.j[k]);
             const Vec2 t = perpendicular(rows.direction[k]);

@@ -75,7 +75,9 @@ void BpmSolver::load(const Checkpoint& from) {
     energy_.external_work = scalars[4];
     energy_.friction = scalars[5];
     energy_.impact = scalars[6];
-    contact_result_ = {static_cast<int>(scalars[7]), scalars[8], from.number("bpm.converged") != 0.0};
+    contact_result_ = {.iterations = static_cast<int>(scalars[7]),
+                       .residual = scalars[8],
+                       .converged = from.number("bpm.converged") != 0.0};
     attraction_.load(from, "bpm.attraction.");
     contacts_.load(from, "bpm.contacts.", discs());
 }

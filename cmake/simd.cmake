@@ -21,6 +21,8 @@ endif()
 
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   list(APPEND SOFTGRAIN_SIMD_FLAGS -Wno-pass-failed) # it warns of a loop that stays scalar
+else()
+  list(APPEND SOFTGRAIN_SIMD_FLAGS -Wno-psabi) # vectors are passed to inlined functions only
 endif()
 
 # softgrain_simd_sources(files...): their loops become vectors, for the processor found when the program

@@ -8,6 +8,7 @@
 #include "common/checkpoint.hpp"
 #include "common/contact_dynamics/contact_rows.hpp"
 #include "common/contact_dynamics/discs.hpp"
+#include "common/contact_dynamics/sweep.hpp"
 #include "common/neighbors.hpp"
 
 namespace softgrain {
@@ -16,31 +17,32 @@ struct ContactSettings {
     double tolerance = 0.0;        ///< largest change of a gap by one more sweep [m], > 0
     double skin = 0.0;             ///< candidates are pairs with a smaller gap [m], > 0
     int max_iterations = 1000;     ///< sweeps in one solve
-    double over_relaxation = 1.7;  ///< 0 to 2; rows with friction use 1
-    double friction = 0.0;         ///< Coulomb coefficient between groups; walls are frictionless
+    double over_relaxation = 1.8;  ///< 0 to 2; rows with friction use 1
+    /// Friction and rolling resistance inside a group and between groups; walls have none.
+    contact_sweep::Resistance within = {}, between = {};
     /// An overlap is removed by at most this much in a step [m], so that deep ones do not explode.
     double largest_push = std::numeric_limits<double>::infinity();
-    /// Threads are used for more rows than this. Two barriers a sweep cost little on idle cores, but far more
-    /// than they save when other work shares the cores.
-    std::size_t rows_worth_threads = 20000;
+    int block_discs = 512;  ///< larger groups are divided
 };
 
 struct ContactResult {
-    int iterations = 0;     ///< sweeps made
-    double residual = 0.0;  ///< h max |dp / (omega m_e)| of the last sweep [m]
+    int iterations = 0;        ///< sweeps made, most of them over a part of the contacts
+    double sweeps = 0.0;       ///< contacts relaxed / contacts
+    double residual = 0.0;     ///< h max |dp / (omega m_e)| of the last sweep over all contacts [m]
+    double penetration = 0.0;  ///< deepest overlap before the step [m]
     bool converged = false;
 };
 
 /// Finds impulses p >= 0 such that no gap is negative after x += h v, by projected over-relaxation with warm
 /// start: p' = max(0, p - omega m_e (n.dv + gap/h)), t' = clamp(t - (m_e/3) v_t, +-mu p').
-/// Same bits for any number of threads: groups are swept in parallel, then rows between groups by colour.
+/// Rolling: c' = clamp(c - I_e (w_j - w_i), +-mu_r (r_i + r_j) p'). Same bits for any number of threads.
 class ContactDynamics {
   public:
     explicit ContactDynamics(const ContactSettings& settings);
 
     /// Changes discs.v (and rim_speed) from the velocities without contact to those at the end of the step.
     /// The number, radii, masses and groups of the discs must stay the same between calls.
-    ContactResult solve(const Discs& discs, const WallMotion& walls, double h);
+    ContactResult solve(const Discs& discs, const WallMotion& walls, double h, bool threads = false);
 
     /// The contacts of the last solve; impulses are `normal` and `tangential` times the reduced mass.
     const ContactRows& rows() const { return rows_; }
@@ -63,6 +65,7 @@ class ContactDynamics {
 
     ContactSettings settings_;
     NeighborList candidates_;
+    ContactBlocks blocks_;
     Box built_box_;
     ContactRows rows_;
     WallRows wall_rows_;

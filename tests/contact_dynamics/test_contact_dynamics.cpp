@@ -159,9 +159,12 @@ TEST(ContactDynamics, SameBitsForOneAndTwoThreads) {
             if (alone)
                 for (std::size_t d = 0; d < cloud.size(); ++d) cloud.group[d] = static_cast<int>(d);
             ContactDynamics contacts(
-                {.tolerance = 1e-5, .skin = 0.3, .friction = alone ? 0.4 : 0.0, .rows_worth_threads = 0});
+                {.tolerance = 1e-5,
+                 .skin = 0.3,
+                 .between = {.friction = alone ? 0.4 : 0.0, .rolling = alone ? 0.2 : 0.0},
+                 .block_discs = 100});
             for (int step = 0; step < 3; ++step) {
-                contacts.solve(cloud.discs(), {{{-0.5, 60.5, -0.5, 52.2}}, {0.1, 0, 0, -0.1}}, 0.01);
+                contacts.solve(cloud.discs(), {{{-0.5, 60.5, -0.5, 52.2}}, {0.1, 0, 0, -0.1}}, 0.01, true);
                 for (std::size_t d = 0; d < cloud.size(); ++d) cloud.x[d] += 0.01 * cloud.v[d];
             }
             ASSERT_GT(contacts.rows().size(), 10000U);
@@ -175,7 +178,8 @@ TEST(ContactDynamics, SameBitsForOneAndTwoThreads) {
 
 TEST(ContactDynamics, RestartGivesTheSameBits) {
     DiscCloud cloud = disc_cloud(5, 10, 10, 3);
-    const ContactSettings settings{.tolerance = 1e-6, .skin = 0.3, .friction = 0.3};
+    const ContactSettings settings{
+        .tolerance = 1e-6, .skin = 0.3, .between = {.friction = 0.3, .rolling = 0.1}};
     ContactDynamics contacts(settings);
     const auto steps = [&](DiscCloud& c, ContactDynamics& s, int count) {
         for (int k = 0; k < count; ++k) {

@@ -15,7 +15,7 @@ DiscCloud disc_on_floor(Vec2 v, double rim_speed) {
 }
 
 ContactSettings rubbing(double friction) {
-    return {.tolerance = 1e-13, .skin = 0.1, .max_iterations = 100000, .friction = friction};
+    return {.tolerance = 1e-13, .skin = 0.1, .max_iterations = 100000, .between = {.friction = friction}};
 }
 
 TEST(Friction, SlidingTakesMuTimesTheNormalImpulse) {
