@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
@@ -54,6 +55,8 @@ void require_counts(const fs::path& path, vtkPolyData& data) {
                 piece_count(header, "NumberOfPolys") == data.GetNumberOfPolys();
     for (int a = 0; good && a < data.GetCellData()->GetNumberOfArrays(); ++a)
         good = data.GetCellData()->GetAbstractArray(a)->GetNumberOfTuples() == data.GetNumberOfCells();
+    for (int a = 0; good && a < data.GetPointData()->GetNumberOfArrays(); ++a)
+        good = data.GetPointData()->GetAbstractArray(a)->GetNumberOfTuples() == data.GetNumberOfPoints();
     if (!good) throw OutputError(path.string() + ": is damaged: fewer data than its header says");
 }
 

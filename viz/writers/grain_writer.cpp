@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "viz/writers/periodic.hpp"
+#include "viz/writers/places.hpp"
 #include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
@@ -57,14 +57,7 @@ void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints
 
 void add_scalars(vtkPolyData& data, std::string_view name, std::string_view unit,
                  std::span<const double> values) {
-    auto array = add_numbers(*data.GetCellData(), name, unit, 1, values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) array->SetValue(static_cast<vtkIdType>(k), values[k]);
-}
-
-/// A plane tensor xx, xy, yx, yy as the nine components ParaView takes for a tensor; zero out of plane.
-void set_tensor(vtkDoubleArray& array, std::size_t tuple, double xx, double xy, double yx, double yy) {
-    const double components[9] = {xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0};
-    array.SetTuple(static_cast<vtkIdType>(tuple), components);
+    add_field(*data.GetCellData(), {name, unit, 1, values}, values.size());
 }
 
 void add_stress(const GrainView& view, vtkPolyData& data) {
@@ -80,15 +73,6 @@ void add_stress(const GrainView& view, vtkPolyData& data) {
         deviatoric->SetValue(static_cast<vtkIdType>(g), std::hypot((s(0, 0) - s(1, 1)) / 2.0, shear));
     }
     data.GetCellData()->SetActiveTensors("stress");
-}
-
-void add_field(const Field& field, std::size_t grains, vtkPolyData& data) {
-    if (field.components == 1) return add_scalars(data, field.name, field.unit, field.values);
-    auto array = add_numbers(*data.GetCellData(), field.name, field.unit, 9, grains);
-    for (std::size_t g = 0; g < grains; ++g) {
-        const double* t = field.values.data() + 4 * g;
-        set_tensor(*array, g, t[0], t[1], t[2], t[3]);
-    }
 }
 
 void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
@@ -138,7 +122,7 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     data->SetPoints(points);
     if (wants(needs_, Need::stress)) add_stress(view, *data);
     if (wants(needs_, Need::fields))
-        for (const Field& field : view.fields) add_field(field, view.size(), *data);
+        for (const Field& field : view.fields) add_field(*data->GetCellData(), field, view.size());
     frames_.add(sample.frame, view.time, *data);
 }
 
