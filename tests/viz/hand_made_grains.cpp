@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "viz/writers/polygon_shape.hpp"
+#include "common/observables/shape.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {

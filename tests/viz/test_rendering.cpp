@@ -10,7 +10,6 @@
 #include "picture.hpp"
 #include "viz/client.hpp"
 #include "viz/render/scale.hpp"
-#include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {

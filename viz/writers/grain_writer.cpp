@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/observables/shape.hpp"
 #include "viz/writers/places.hpp"
-#include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
@@ -23,11 +23,8 @@ void require_finite(bool finite, std::size_t grain, const char* quantity, double
         throw DivergedError(static_cast<int>(grain), quantity, time, "not a number that can be drawn");
 }
 
-/// Points and polygons, with the shapes that follow from them.
-void add_outlines(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
+void add_polygons(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
     vtkNew<vtkCellArray> polygons;
-    auto aspect_ratio = add_numbers(*data.GetCellData(), "aspect_ratio", "", 1, view.size());
-    auto orientation = add_numbers(*data.GetCellData(), "orientation", "rad", 1, view.size());
     for (std::size_t g = 0; g < view.size(); ++g) {
         const auto first = static_cast<std::size_t>(view.outline_offset[g]);
         const auto last = static_cast<std::size_t>(view.outline_offset[g + 1]);
@@ -38,11 +35,22 @@ void add_outlines(const GrainView& view, std::span<const Vec2> shift, vtkPoints&
             polygons->InsertCellPoint(
                 points.InsertNextPoint(p.x() - shift[g].x(), p.y() - shift[g].y(), 0.0));
         }
-        const PolygonShape shape = polygon_shape(outline);
-        aspect_ratio->SetValue(static_cast<vtkIdType>(g), shape.aspect_ratio);
-        orientation->SetValue(static_cast<vtkIdType>(g), shape.orientation);
     }
     data.SetPolys(polygons);
+}
+
+/// What follows from the outlines.
+void add_shapes(const GrainView& view, vtkPolyData& data) {
+    const std::vector<Shape> shapes = grain_shapes(view);
+    const auto add = [&](std::string_view name, std::string_view unit, double Shape::*value) {
+        auto array = add_numbers(*data.GetCellData(), name, unit, 1, view.size());
+        for (std::size_t g = 0; g < view.size(); ++g)
+            array->SetValue(static_cast<vtkIdType>(g), shapes[g].*value);
+    };
+    add("aspect_ratio", "", &Shape::aspect_ratio);
+    add("orientation", "rad", &Shape::orientation);
+    add("asphericity", "", &Shape::asphericity);
+    add("circularity", "", &Shape::circularity);
 }
 
 void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
@@ -110,10 +118,12 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     add_scalars(*data, "reference_area", "m^2", view.reference_area);
     if (wants(needs_, Need::area)) add_scalars(*data, "area", "m^2", view.area);
     const std::vector<Vec2> shift = shift_into_cell(view);
-    if (wants(needs_, Need::outlines))
-        add_outlines(view, shift, *points, *data);
-    else
+    if (wants(needs_, Need::outlines)) {
+        add_polygons(view, shift, *points, *data);
+        add_shapes(view, *data);
+    } else {
         add_centroids(view, shift, *points, *data);
+    }
     if (!grain_class_.empty()) {
         auto grain_class = add_ids(*data->GetCellData(), "grain_class", grain_class_.size());
         for (std::size_t g = 0; g < grain_class_.size(); ++g)
