@@ -7,6 +7,7 @@
 #include "bpm/disc_contacts.hpp"
 #include "bpm/grain_contacts.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
+#include "common/observables/affine_fit.hpp"
 #include "common/solver.hpp"
 
 namespace softgrain::bpm {
@@ -74,6 +75,7 @@ class BpmSolver final : public Solver {
     void view_outlines(Need need, GrainView& view);
     void view_fields(GrainView& view);
     void view_parts(GrainView& view);
+    AffineFit motion_of(std::size_t grain) const;
 
     BpmSettings settings_;
     double friction_;
@@ -101,6 +103,7 @@ class BpmSolver final : public Solver {
     GrainContacts grain_contacts_;
     DiscContacts disc_contacts_;
     std::vector<Vec2> x_start_;  ///< [discs] positions at the start of the run
+    std::vector<double> deformation_, non_affine_motion_, non_affine_displacement_;
 };
 
 }  // namespace softgrain::bpm

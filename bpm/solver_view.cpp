@@ -118,10 +118,34 @@ void BpmSolver::view_fields(GrainView& view) {
     iterations_.assign(grains(), contact_result_.iterations);
     view.fields.push_back({"discs", "", 1, disc_count_});
     view.fields.push_back({"penetration", "disc diameters", 1, grain_penetration_});
+    deformation_.resize(4 * grains());
+    non_affine_motion_.resize(grains());
+    for (std::size_t g = 0; g < grains(); ++g) {
+        const AffineFit motion = motion_of(g);
+        for (int k = 0; k < 4; ++k) deformation_[4 * g + at(k)] = motion.gradient(k / 2, k % 2);
+        non_affine_motion_[g] = motion.residual / (diameter_ * diameter_);
+    }
     view.fields.push_back({"contact_iterations", "", 1, iterations_});
+    view.fields.push_back({"F", "1", 4, deformation_});
+    view.fields.push_back({"non_affine_motion", "disc diameters^2", 1, non_affine_motion_});
+}
+
+/// Of the grain's discs since the start of the run.
+AffineFit BpmSolver::motion_of(std::size_t grain) const {
+    const std::size_t first = at(grain_start_[grain]);
+    const std::size_t count = at(grain_start_[grain + 1]) - first;
+    return fit_affine(std::span(x_start_).subspan(first, count), std::span(x_).subspan(first, count));
 }
 
 void BpmSolver::view_parts(GrainView& view) {
+    non_affine_displacement_.clear();
+    for (std::size_t g = 0; g < grains(); ++g) {
+        const AffineFit motion = motion_of(g);
+        for (std::size_t d = at(grain_start_[g]); d < at(grain_start_[g + 1]); ++d) {
+            const Vec2 left = motion.non_affine(x_start_[d], x_[d]);
+            non_affine_displacement_.insert(non_affine_displacement_.end(), {left.x(), left.y()});
+        }
+    }
     view.parts.position = x_;
     view.parts.reference = x_start_;
     view.parts.radius = radius_;
@@ -129,7 +153,8 @@ void BpmSolver::view_parts(GrainView& view) {
     view.parts.contacts = disc_contacts_.contacts;
     view.parts.fields = {{"velocity", "m/s", 2, components_of(v_)},
                          {"touching", "", 1, disc_contacts_.touching},
-                         {"contact_force", "N", 1, disc_contacts_.force}};
+                         {"contact_force", "N", 1, disc_contacts_.force},
+                         {"non_affine_displacement", "m", 2, non_affine_displacement_}};
 }
 
 }  // namespace softgrain::bpm

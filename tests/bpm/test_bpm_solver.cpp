@@ -100,6 +100,8 @@ TEST(BpmSolver, RestartGivesTheSameBits) {
         EXPECT_EQ(a.time, b.time);
         EXPECT_EQ(a.covered_area, b.covered_area);
         EXPECT_TRUE(std::ranges::equal(a.parts.reference, b.parts.reference));
+        for (std::size_t f = 0; f < a.fields.size(); ++f)
+            EXPECT_TRUE(std::ranges::equal(a.fields[f].values, b.fields[f].values)) << a.fields[f].name;
         EXPECT_EQ(a.energy.elastic, b.energy.elastic);
         EXPECT_EQ(a.energy.impact, b.energy.impact);
         EXPECT_EQ(a.energy.friction, b.energy.friction);

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "bpm/outline.hpp"
 #include "sample.hpp"
@@ -133,8 +135,9 @@ TEST(BpmView, OutlinesAreCounterClockwiseAndHoldTheArea) {
 TEST(BpmView, FieldsHaveOneValueForEachGrain) {
     Pressed sample;
     const GrainView view = sample.solver.view(Need::fields);
-    ASSERT_EQ(view.fields.size(), 3U);
-    for (const Field& field : view.fields) EXPECT_EQ(field.values.size(), 4U) << field.name;
+    ASSERT_EQ(view.fields.size(), 5U);
+    for (const Field& field : view.fields)
+        EXPECT_EQ(field.values.size(), 4U * static_cast<std::size_t>(field.components)) << field.name;
     EXPECT_EQ(view.fields[0].values[0], 60.0);
     for (double deepest : view.fields[1].values) {
         EXPECT_GE(deepest, 0.0);
@@ -172,6 +175,51 @@ TEST(BpmView, PartsAreTheDiscs) {
         weight += area;
     }
     EXPECT_LT((mean / weight - view.velocity[0]).norm(), 1e-12 * view.velocity[0].norm());
+}
+
+std::span<const double> values_of(const std::vector<Field>& fields, std::string_view name) {
+    for (const Field& field : fields)
+        if (field.name == name) return field.values;
+    throw std::runtime_error("no field " + std::string(name));
+}
+
+/// Discs at rest, then moved by hand by way of a checkpoint, as no loading could.
+TEST(BpmView, NonAffineMotionIsWhatIsBeyondAnAffineOne) {
+    const Packing packing = square_packing(2, 1, 0.5);
+    BpmSolver solver(scenario_of(40), packing);
+    const double d = solver.mean_disc_diameter();
+    EXPECT_EQ(values_of(solver.view(Need::fields).fields, "non_affine_motion")[0], 0.0);
+    Mat2 gradient;
+    gradient << 1.2, 0.3, -0.2, 0.8;
+    Checkpoint state;
+    solver.save(state);
+    std::vector<Vec2> x;
+    state.get("bpm.x", x);
+    for (std::size_t k = 0; k < 40; ++k) x[k] = gradient * x[k] + Vec2(3.0, -4.0);
+    x[50].y() += 2.0 * d;  // one of the 40 discs of the second grain
+    state.put("bpm.x", std::span<const Vec2>(x));
+    solver.load(state);
+    const GrainView view = solver.view(Need::fields | Need::parts);
+    const auto motion = values_of(view.fields, "non_affine_motion");
+    const auto of_disc = values_of(view.parts.fields, "non_affine_displacement");
+    const auto deformation = values_of(view.fields, "F");
+    for (int k = 0; k < 4; ++k)
+        EXPECT_NEAR(deformation[static_cast<std::size_t>(k)], gradient(k / 2, k % 2), 1e-13);
+    EXPECT_LT(motion[0], 1e-24);
+    for (std::size_t k = 0; k < 80; ++k) EXPECT_LT(std::abs(of_disc[k]), 1e-12);
+    // The grain's affine motion takes up 1/n + a.M^-1 a of one disc's motion, a its arm, M = sum a a^T.
+    Vec2 middle = Vec2::Zero();
+    for (std::size_t k = 40; k < 80; ++k) middle += view.parts.reference[k] / 40.0;
+    Mat2 moment = Mat2::Zero();
+    for (std::size_t k = 40; k < 80; ++k) {
+        const Vec2 arm = view.parts.reference[k] - middle;
+        moment += arm * arm.transpose();
+    }
+    const Vec2 arm = view.parts.reference[50] - middle;
+    const double left = 1.0 - 1.0 / 40.0 - arm.dot(moment.inverse() * arm);
+    EXPECT_NEAR(motion[1], 4.0 * left / 40.0, 1e-12);
+    EXPECT_NEAR(of_disc[2 * 50 + 1], 2.0 * d * left, 1e-12);
+    EXPECT_NEAR(of_disc[2 * 50], 0.0, 1e-12);
 }
 
 TEST(BpmView, TouchingDiscsAreCountedOneByOne) {
