@@ -93,6 +93,7 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
     const auto [low, high] = packing_fraction_range(results);
     for (const double phi : {low, 0.5 * (low + high), high})
         frames.at_packing_fraction.push_back(std::round(100.0 * phi) / 100.0);
+    frames.parts = request.scenario.sampling.parts;
     frames.out = request.folder / "pictures";
     complain(render_frames(frames));
 }

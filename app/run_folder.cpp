@@ -104,6 +104,8 @@ RunReport run_into_folder(const RunRequest& request) {
         // What an earlier run left must not be taken for this one's.
         std::filesystem::remove(request.folder / "run.h5");
         std::filesystem::remove(request.folder / "run.json");
+        for (const char* not_always_written : {"contacts.pvd", "parts.pvd", "part_contacts.pvd"})
+            std::filesystem::remove(request.folder / not_always_written);
         write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 
@@ -113,8 +115,10 @@ RunReport run_into_folder(const RunRequest& request) {
                        request.packing.grain_class);
     ContactWriter contacts(request.folder);
     WallWriter walls(request.folder);
+    PartWriter parts(request.folder, scenario.sampling.contacts);
     std::vector<Observer*> observers{&history, &grains, &walls};
     if (scenario.sampling.contacts) observers.push_back(&contacts);
+    if (scenario.sampling.parts) observers.push_back(&parts);
 
     TimeLoop run(scenario, request.packing, *solver, observers);
     if (earlier) run.resume(file.state);

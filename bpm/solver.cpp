@@ -115,6 +115,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
     }
     settle(packing.box);
     potential_at_start_ = attraction_.energy(x_);
+    x_start_ = x_;
 }
 
 void BpmSolver::settle(const Box& box) {

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "bpm/attraction.hpp"
+#include "bpm/disc_contacts.hpp"
 #include "bpm/grain_contacts.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
+#include "common/observables/affine_fit.hpp"
 #include "common/solver.hpp"
 
 namespace softgrain::bpm {
@@ -72,6 +74,8 @@ class BpmSolver final : public Solver {
     void view_grains();
     void view_outlines(Need need, GrainView& view);
     void view_fields(GrainView& view);
+    void view_parts(GrainView& view);
+    AffineFit motion_of(std::size_t grain) const;
 
     BpmSettings settings_;
     double friction_;
@@ -97,6 +101,9 @@ class BpmSolver final : public Solver {
     std::vector<double> grain_mass_, reference_area_, area_, disc_count_, grain_penetration_, iterations_;
     std::vector<int> outline_offset_;
     GrainContacts grain_contacts_;
+    DiscContacts disc_contacts_;
+    std::vector<Vec2> x_start_;  ///< [discs] positions at the start of the run
+    std::vector<double> deformation_, non_affine_motion_, non_affine_displacement_;
 };
 
 }  // namespace softgrain::bpm

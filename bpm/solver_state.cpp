@@ -26,6 +26,7 @@ void BpmSolver::check_finite() const {
 void BpmSolver::save(Checkpoint& to) const {
     to.put("bpm.radius", std::span<const double>(radius_));
     to.put("bpm.x", std::span<const Vec2>(x_));
+    to.put("bpm.x_start", std::span<const Vec2>(x_start_));
     to.put("bpm.v", std::span<const Vec2>(v_));
     to.put("bpm.rim_speed", std::span<const double>(rim_speed_));
     to.put("bpm.box", std::span<const double>(box_.position));
@@ -47,15 +48,17 @@ void BpmSolver::save(Checkpoint& to) const {
 
 void BpmSolver::load(const Checkpoint& from) {
     std::vector<double> radius, rim_speed, box, scalars;
-    std::vector<Vec2> x, v, wall_force;
+    std::vector<Vec2> x, x_start, v, wall_force;
     from.get("bpm.radius", radius);
     from.get("bpm.x", x);
+    from.get("bpm.x_start", x_start);
     from.get("bpm.v", v);
     from.get("bpm.rim_speed", rim_speed);
     from.get("bpm.box", box);
     from.get("bpm.wall_force", wall_force);
     from.get("bpm.scalars", scalars);
-    const bool fits = radius.size() == radius_.size() && x.size() == x_.size() && v.size() == v_.size() &&
+    const bool fits = radius.size() == radius_.size() && x.size() == x_.size() &&
+                      x_start.size() == x_.size() && v.size() == v_.size() &&
                       rim_speed.size() == rim_speed_.size() && box.size() == 4 && wall_force.size() == 4 &&
                       scalars.size() == 9 &&
                       std::equal(radius.begin(), radius.end(), radius_.begin(),
@@ -64,6 +67,7 @@ void BpmSolver::load(const Checkpoint& from) {
         throw InputError(
             "checkpoint: its discs are not those of this scenario; use the same scenario, packing and seed");
     x_ = std::move(x);
+    x_start_ = std::move(x_start);
     v_ = std::move(v);
     rim_speed_ = std::move(rim_speed);
     std::copy(box.begin(), box.end(), box_.position.begin());

@@ -14,6 +14,12 @@ std::size_t at(int k) {
     return static_cast<std::size_t>(k);
 }
 
+/// x and y of each vector.
+std::span<const double> components_of(const std::vector<Vec2>& vectors) {
+    static_assert(sizeof(Vec2) == 2 * sizeof(double));
+    return {reinterpret_cast<const double*>(vectors.data()), 2 * vectors.size()};
+}
+
 }  // namespace
 
 GrainView BpmSolver::view(Need need) {
@@ -29,14 +35,19 @@ GrainView BpmSolver::view(Need need) {
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy_;
+    const GrainContactInput after_step{discs(),   centroid_, reference_area_, box_, touch_gap * diameter_,
+                                       last_step_};
     if (wants(need, Need::contacts) || wants(need, Need::stress)) {
-        grain_contacts_ = sum_grain_contacts(
-            contacts_, {discs(), centroid_, reference_area_, box_, touch_gap * diameter_, last_step_});
+        grain_contacts_ = sum_grain_contacts(contacts_, after_step);
         view.contacts = grain_contacts_.contacts;
         view.stress = grain_contacts_.stress;
     }
     if (wants(need, Need::area) || wants(need, Need::outlines)) view_outlines(need, view);
     if (wants(need, Need::fields)) view_fields(view);
+    if (wants(need, Need::parts)) {
+        disc_contacts_ = list_disc_contacts(contacts_, after_step);
+        view_parts(view);
+    }
     return view;
 }
 
@@ -107,7 +118,43 @@ void BpmSolver::view_fields(GrainView& view) {
     iterations_.assign(grains(), contact_result_.iterations);
     view.fields.push_back({"discs", "", 1, disc_count_});
     view.fields.push_back({"penetration", "disc diameters", 1, grain_penetration_});
+    deformation_.resize(4 * grains());
+    non_affine_motion_.resize(grains());
+    for (std::size_t g = 0; g < grains(); ++g) {
+        const AffineFit motion = motion_of(g);
+        for (int k = 0; k < 4; ++k) deformation_[4 * g + at(k)] = motion.gradient(k / 2, k % 2);
+        non_affine_motion_[g] = motion.residual / (diameter_ * diameter_);
+    }
     view.fields.push_back({"contact_iterations", "", 1, iterations_});
+    view.fields.push_back({"F", "1", 4, deformation_});
+    view.fields.push_back({"non_affine_motion", "disc diameters^2", 1, non_affine_motion_});
+}
+
+/// Of the grain's discs since the start of the run.
+AffineFit BpmSolver::motion_of(std::size_t grain) const {
+    const std::size_t first = at(grain_start_[grain]);
+    const std::size_t count = at(grain_start_[grain + 1]) - first;
+    return fit_affine(std::span(x_start_).subspan(first, count), std::span(x_).subspan(first, count));
+}
+
+void BpmSolver::view_parts(GrainView& view) {
+    non_affine_displacement_.clear();
+    for (std::size_t g = 0; g < grains(); ++g) {
+        const AffineFit motion = motion_of(g);
+        for (std::size_t d = at(grain_start_[g]); d < at(grain_start_[g + 1]); ++d) {
+            const Vec2 left = motion.non_affine(x_start_[d], x_[d]);
+            non_affine_displacement_.insert(non_affine_displacement_.end(), {left.x(), left.y()});
+        }
+    }
+    view.parts.position = x_;
+    view.parts.reference = x_start_;
+    view.parts.radius = radius_;
+    view.parts.grain = grain_;
+    view.parts.contacts = disc_contacts_.contacts;
+    view.parts.fields = {{"velocity", "m/s", 2, components_of(v_)},
+                         {"touching", "", 1, disc_contacts_.touching},
+                         {"contact_force", "N", 1, disc_contacts_.force},
+                         {"non_affine_displacement", "m", 2, non_affine_displacement_}};
 }
 
 }  // namespace softgrain::bpm

@@ -19,7 +19,8 @@ enum class Need : std::uint32_t {
     stress = 1U << 2,
     outlines = 1U << 3,
     fields = 1U << 4,
-    all = (1U << 5) - 1,
+    all = (1U << 5) - 1,  ///< all of the above
+    parts = 1U << 5,      ///< what grains are made of: only for who says so
 };
 constexpr Need operator|(Need a, Need b) {
     return static_cast<Need>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -57,11 +58,35 @@ struct EnergyLedger {
     double dissipated() const { return damping + friction + impact + plastic + adhesion; }
 };
 
-/// A method's own quantity per grain, written as it is.
+/// A method's own quantity per grain or part, written as it is.
 struct Field {
     std::string_view name, unit;
-    int components;                  ///< 1 (scalar) or 4 (tensor xx, xy, yx, yy)
+    int components;                  ///< 1 (scalar), 2 (vector) or 4 (tensor xx, xy, yx, yy)
     std::span<const double> values;  ///< [n * components]
+};
+
+/// Two parts that press on each other, or a part that presses on a wall.
+struct PartContact {
+    int i;                    ///< part
+    int j;                    ///< second part (j > i), or -1 - wall
+    double normal_force;      ///< compression positive [N]
+    double tangential_force;  ///< on i, along the normal out of i turned by +90 degrees [N]
+
+    bool with_wall() const { return j < 0; }
+    int wall() const { return -1 - j; }
+};
+
+/// What grains are made of: the discs of an aggregate, the material points of a continuum. Empty if a
+/// method's grains have no parts.
+struct PartView {
+    std::span<const Vec2> position;         ///< [p] may lie outside a periodic cell [m]
+    std::span<const Vec2> reference;        ///< [p] at the start of the run [m]
+    std::span<const double> radius;         ///< [p] of the part, or of a disc of its area [m]
+    std::span<const int> grain;             ///< [p] the grain it belongs to
+    std::span<const PartContact> contacts;  ///< that carry force, sorted by (i, j), walls (j < 0) first
+    std::vector<Field> fields;              ///< the method's own, per part
+
+    std::size_t size() const { return position.size(); }
 };
 
 /// Non-owning view of a solver's state; valid until the solver advances. Stress is compression positive.
@@ -87,6 +112,8 @@ struct GrainView {
     std::span<const Vec2> outline_point;  ///< closed polygons, counter-clockwise [m]
 
     std::vector<Field> fields;
+
+    PartView parts;
 
     std::size_t size() const { return centroid.size(); }
 };

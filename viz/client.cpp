@@ -102,6 +102,9 @@ std::optional<std::string> render_frames(const FramesSpec& spec) {
     else
         arguments.insert(arguments.end(), {"--at-phi", join(spec.at_packing_fraction)});
     if (spec.range) arguments.push_back(fmt::format("--range={},{}", spec.range->first, spec.range->second));
+    if (spec.parts) arguments.emplace_back("--parts");
+    if (spec.window)
+        arguments.insert(arguments.end(), {"--window", fmt::format("{}", fmt::join(*spec.window, ","))});
     return run_renderer(std::move(arguments));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Asks softgrain-render for pictures, so that the solver's executable never loads VTK's rendering libraries.
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct FramesSpec {
     std::vector<double> at_packing_fraction;         ///< used instead of `at` if not empty
     std::string field = "mean_stress";               ///< cell data of grains.pvd
     std::optional<std::pair<double, double>> range;  ///< of the colours; without it, from the data
+    bool parts = false;                              ///< draw the parts of grains, where a run wrote them
+    std::optional<std::array<double, 4>> window;     ///< left, right, bottom, top as shares of the extent
     std::filesystem::path out;                       ///< folder: LABEL_1.png ... and sheet.png
     int width = 1600;                                ///< [pixels]
 };

@@ -85,8 +85,9 @@ LoadingStage stage_of(const Settings& s) {
 }
 
 Sampling sampling_of(const Settings& s) {
-    return {s.number("strain_interval"), s.number("average_window"),
-            static_cast<int>(s.integer("frame_every")), s.boolean("outlines"), s.boolean("contacts")};
+    return {
+        s.number("strain_interval"), s.number("average_window"), static_cast<int>(s.integer("frame_every")),
+        s.boolean("outlines"),       s.boolean("contacts"),      s.boolean("parts")};
 }
 
 /// Reads one document: checks every table, remembers every error.

@@ -115,7 +115,9 @@ const std::vector<KeySpec> sampling_keys{
     {"frame_every", integer, Value(std::int64_t{Sampling{}.frame_every}), "", "samples for one VTK frame",
      Range{1.0, 1e9}},
     {"outlines", boolean, Value(Sampling{}.outlines), "", "write grain outlines"},
-    {"contacts", boolean, Value(Sampling{}.contacts), "", "write contacts"},
+    {"contacts", boolean, Value(Sampling{}.contacts), "", "write contacts, of grains and of parts"},
+    {"parts", boolean, Value(Sampling{}.parts), "",
+     "write what grains are made of, such as the discs of bpm; a method without parts writes nothing more"},
 };
 
 const std::array<TableSpec, 8> tables{{

@@ -124,6 +124,7 @@ Settings settings_of(const Sampling& sampling) {
     s.set("frame_every", std::int64_t{sampling.frame_every});
     s.set("outlines", sampling.outlines);
     s.set("contacts", sampling.contacts);
+    s.set("parts", sampling.parts);
     return s;
 }
 

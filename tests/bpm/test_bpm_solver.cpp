@@ -91,14 +91,17 @@ TEST(BpmSolver, RestartGivesTheSameBits) {
     BpmSolver again(scenario, packing);
     again.load(checkpoint);
     const auto expect_same = [&] {
-        const GrainView a = solver.view(Need::all);
+        const GrainView a = solver.view(Need::all | Need::parts);
         const std::vector<GrainContact> contacts(a.contacts.begin(), a.contacts.end());
-        const GrainView b = again.view(Need::all);
+        const GrainView b = again.view(Need::all | Need::parts);
         EXPECT_TRUE(std::ranges::equal(solver.disc_position(), again.disc_position()));
         EXPECT_TRUE(std::ranges::equal(a.velocity, b.velocity));
         EXPECT_EQ(a.wall_force, b.wall_force);
         EXPECT_EQ(a.time, b.time);
         EXPECT_EQ(a.covered_area, b.covered_area);
+        EXPECT_TRUE(std::ranges::equal(a.parts.reference, b.parts.reference));
+        for (std::size_t f = 0; f < a.fields.size(); ++f)
+            EXPECT_TRUE(std::ranges::equal(a.fields[f].values, b.fields[f].values)) << a.fields[f].name;
         EXPECT_EQ(a.energy.elastic, b.energy.elastic);
         EXPECT_EQ(a.energy.impact, b.energy.impact);
         EXPECT_EQ(a.energy.friction, b.energy.friction);

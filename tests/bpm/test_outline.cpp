@@ -6,6 +6,7 @@
 
 #include "bpm/aggregate.hpp"
 #include "bpm/outline.hpp"
+#include "tests/bpm/alpha_complex.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -164,6 +165,62 @@ TEST(Outline, TouchingGrainsHaveTouchingOutlines) {
     EXPECT_NEAR(left_most, 0.0, 0.016);
     EXPECT_NEAR(right_most, 0.0, 0.016);
     EXPECT_LE(left_most, right_most + 1e-12);
+}
+
+/// n discs of radius 0.35 to 0.6 in a square, none overlapping another.
+void throw_discs(std::size_t n, double side, unsigned seed, std::vector<Vec2>& x,
+                 std::vector<double>& radius) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    while (x.size() < n) {
+        const Vec2 at{side * unit(random), side * unit(random)};
+        const double r = 0.35 + 0.25 * unit(random);
+        bool free = true;
+        for (std::size_t k = 0; k < x.size() && free; ++k) free = (x[k] - at).norm() > radius[k] + r;
+        if (!free) continue;
+        x.push_back(at);
+        radius.push_back(r);
+    }
+}
+
+TEST(AlphaComplex, ThreeDiscsAreATriangleUntilRhoCanEnter) {
+    const double side = 2.2, rho = side / std::sqrt(3.0) - 1.0;  // of the disc between three unit discs
+    const std::vector<Vec2> x{{0, 0}, {side, 0}, {0.5 * side, 0.5 * std::sqrt(3.0) * side}};
+    const std::vector<double> radius(3, 1.0);
+    const double triangle = 0.25 * std::sqrt(3.0) * side * side;
+    EXPECT_NEAR(alpha_complex(x, radius, 1.001 * rho).area(), triangle + 2.5 * std::numbers::pi, 1e-12);
+    EXPECT_NEAR(alpha_complex(x, radius, 0.999 * rho).area(), 3.0 * std::numbers::pi, 1e-12);
+}
+
+/// The closing is the alpha complex of the weighted Delaunay triangulation with the discs around it, and
+/// hollow fillets in all crevices: an identity, however loose the discs lie.
+TEST(Outline, IsTheAlphaComplexWithFillets) {
+    for (unsigned seed : {1U, 2U, 3U, 4U}) {
+        std::vector<Vec2> x;
+        std::vector<double> radius;
+        throw_discs(60, 9.0, seed, x, radius);
+        for (double rho : {0.1, 0.2, 0.3, 0.5}) {
+            const AlphaComplex complex = alpha_complex(x, radius, rho);
+            EXPECT_NEAR(Outline(x, radius, rho, all_pairs(60)).area(),
+                        complex.area() + fillets(x, radius, rho), 1e-10)
+                << "seed " << seed << ", rho " << rho << ", " << complex.triangles.size() << " triangles";
+        }
+    }
+}
+
+/// How much area the outline of a grain has beyond the complex: the crevices of its rim.
+TEST(Outline, CountsCrevicesThatTheAlphaComplexDoesNot) {
+    const Aggregate grain = prepare_aggregate({100, 1.625, 0.3, 2, 0}, 1.0);
+    double diameter = 0.0;
+    for (double r : grain.radius) diameter += 2.0 * r / 100.0;
+    const double rho = 0.3 * diameter;
+    const AlphaComplex complex = alpha_complex(grain.x, grain.radius, rho);
+    const double area = Outline(grain.x, grain.radius, rho, all_pairs(100)).area();
+    // Overlaps of 1e-4 diameters are counted twice by the complex: 1e-6 of a disc each.
+    EXPECT_NEAR(area, complex.area() + fillets(grain.x, grain.radius, rho), 1e-5);
+    // A crevice between equal discs is 0.028 diameters^2; about 35 of them on 92 diameters^2.
+    EXPECT_GT(area / complex.area(), 1.005);
+    EXPECT_LT(area / complex.area(), 1.02);
 }
 
 }  // namespace

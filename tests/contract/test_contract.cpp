@@ -144,7 +144,8 @@ TEST_P(Contract, LookingAtTheGrainsDoesNotChangeThem) {
     const auto watched = solver_for(packing);
     const auto alone = solver_for(packing);
     const double time = 0.05 * slow(*watched);
-    squeeze(*watched, packing.box, 0.1, time, [&](const Box&, double) { watched->view(Need::all); });
+    squeeze(*watched, packing.box, 0.1, time,
+            [&](const Box&, double) { watched->view(Need::all | Need::parts); });
     squeeze(*alone, packing.box, 0.1, time);
     EXPECT_TRUE(same_bits(saved(*watched), saved(*alone)));
 }
@@ -155,7 +156,7 @@ TEST_P(Contract, TwoThreadsGiveTheBitsOfOne) {
     expect_threads_keep_bits([&] { return solver_for(packing); }, {1, 2},
                              [&](Solver& solver) {
                                  squeeze(solver, packing.box, 0.02, 30.0 * solver.stable_time_step());
-                                 solver.view(Need::all);
+                                 solver.view(Need::all | Need::parts);
                              });
 }
 
@@ -180,7 +181,7 @@ TEST_P(Contract, TheViewIsConsistent) {
     const Packing packing = nine_grains();
     const auto solver = solver_for(packing);
     squeeze(*solver, packing.box, 0.12, 0.3 * slow(*solver));
-    const GrainView view = solver->view(Need::all);
+    const GrainView view = solver->view(Need::all | Need::parts);
     const std::size_t n = packing.size();
     ASSERT_EQ(view.centroid.size(), n);
     ASSERT_EQ(view.velocity.size(), n);
@@ -227,6 +228,13 @@ TEST_P(Contract, TheViewIsConsistent) {
         EXPECT_EQ(field.values.size(), n * static_cast<std::size_t>(field.components)) << field.name;
         for (const double v : field.values) EXPECT_TRUE(std::isfinite(v)) << field.name;
     }
+    const PartView& parts = view.parts;
+    ASSERT_EQ(parts.radius.size(), parts.size());
+    ASSERT_EQ(parts.grain.size(), parts.size());
+    for (const int grain : parts.grain) EXPECT_TRUE(grain >= 0 && grain < static_cast<int>(n));
+    for (const Field& field : parts.fields)
+        EXPECT_EQ(field.values.size(), parts.size() * static_cast<std::size_t>(field.components))
+            << field.name;
 }
 
 TEST_P(Contract, AnAbsurdStepIsNamedAndLeavesNothingHidden) {

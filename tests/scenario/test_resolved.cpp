@@ -71,6 +71,7 @@ void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.sampling.frame_every, b.sampling.frame_every);
     EXPECT_EQ(a.sampling.outlines, b.sampling.outlines);
     EXPECT_EQ(a.sampling.contacts, b.sampling.contacts);
+    EXPECT_EQ(a.sampling.parts, b.sampling.parts);
     ASSERT_EQ(a.method_settings.size(), b.method_settings.size());
     for (const auto& [name, settings] : a.method_settings)
         EXPECT_EQ(settings.values(), b.method_settings.at(name).values()) << name;
@@ -129,6 +130,7 @@ average_window = 0.0
 frame_every = 3
 outlines = false
 contacts = false
+parts = true
 [spring]
 law = "hertz"
 damping = 0

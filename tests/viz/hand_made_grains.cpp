@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "viz/writers/polygon_shape.hpp"
+#include "common/observables/shape.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
@@ -115,6 +115,41 @@ double HandMadeGrains::mean_stress() const {
     double sum = 0.0;
     for (const Mat2& s : stress) sum += s.trace() / 2.0;
     return sum / static_cast<double>(stress.size());
+}
+
+HandMadeParts::HandMadeParts(const HandMadeGrains& grains) {
+    for (std::size_t g = 0; g < grains.centroid.size(); ++g)
+        for (int k = 0; k < per_grain; ++k) {
+            const double size = std::sqrt(grains.area[g]) / 4.0;
+            const Vec2 aside{k % 2 == 0 ? -size : size, k < 2 ? -size : size};
+            position.push_back(grains.centroid[g] + aside);
+            reference.push_back(0.9 * position.back());
+            radius.push_back(size);
+            velocity.insert(velocity.end(), {0.1 * k, -0.2 * static_cast<double>(g)});
+            heat.push_back(scatter(static_cast<int>(position.size())));
+            grain.push_back(static_cast<int>(g));
+        }
+    const auto reach = [&](std::size_t i, std::size_t j) { return 1.15 * (radius[i] + radius[j]); };
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        const int first = static_cast<int>(i);
+        for (int wall = 3; wall >= 0; --wall)
+            if (grains.box.distance(wall, position[i]) < 1.3 * radius[i])
+                contacts.push_back({first, -1 - wall, 0.5 + heat[i], 0.0});
+        for (std::size_t j = i + 1; j < position.size(); ++j)
+            if ((position[j] - position[i]).norm() < reach(i, j))
+                contacts.push_back({first, static_cast<int>(j), 0.1 + heat[i], 0.1 * heat[j]});
+    }
+}
+
+PartView HandMadeParts::view() const {
+    PartView view;
+    view.position = position;
+    view.reference = reference;
+    view.radius = radius;
+    view.grain = grain;
+    view.contacts = contacts;
+    view.fields = {{"velocity", "m/s", 2, velocity}, {"heat", "J", 1, heat}};
+    return view;
 }
 
 Sample frame_sample(int frame) {

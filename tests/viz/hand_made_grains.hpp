@@ -32,6 +32,20 @@ class HandMadeGrains {
     void add_contacts(int n);
 };
 
+/// Four discs in each grain, on a square around its centre, that touch their neighbours in the grain, those
+/// of the next grains, and walls.
+struct HandMadeParts {
+    static constexpr int per_grain = 4;
+
+    explicit HandMadeParts(const HandMadeGrains& grains);
+    PartView view() const;
+
+    std::vector<Vec2> position, reference;
+    std::vector<double> radius, velocity, heat;
+    std::vector<int> grain;
+    std::vector<PartContact> contacts;
+};
+
 /// Writes `frames` frames with all three writers, and history.csv with two rows per frame.
 void write_hand_made_run(const std::filesystem::path& directory, int n, int frames);
 

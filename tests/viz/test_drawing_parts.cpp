@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/observables/shape.hpp"
 #include "hand_made_grains.hpp"
 #include "viz/render/csv_table.hpp"
 #include "viz/render/plot_data.hpp"
 #include "viz/render/scale.hpp"
 #include "viz/render/triangulate.hpp"
-#include "viz/writers/polygon_shape.hpp"
 
 namespace softgrain {
 namespace {

@@ -15,7 +15,6 @@
 #include "hand_made_grains.hpp"
 #include "viz/render/run_reader.hpp"
 #include "viz/render/vtk_errors.hpp"
-#include "viz/writers/polygon_shape.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
@@ -166,22 +165,6 @@ TEST_F(ReadingErrors, FramesAreChosenByFractionAndPackingFraction) {
     EXPECT_DOUBLE_EQ(frame_read.mean_stress, HandMadeGrains(5, 0.2, 0.0).mean_stress());
     fs::remove(folder.path() / "history.csv");
     EXPECT_THROW(RunReader("a", folder.path()).frame_at_packing_fraction(0.8), InputError);
-}
-
-// An ellipse of 400 corners with semi-axes 3 and 2, turned by 0.4 rad and far from the origin.
-TEST(PolygonShapeTest, EllipseHasItsAxes) {
-    std::vector<Vec2> ellipse;
-    for (int k = 0; k < 400; ++k) {
-        const double t = 2.0 * 3.141592653589793 * k / 400;
-        const Vec2 p{3.0 * std::cos(t), 2.0 * std::sin(t)};
-        ellipse.push_back(Vec2{1000.0, -500.0} + std::cos(0.4) * p + std::sin(0.4) * perpendicular(p));
-    }
-    const PolygonShape shape = polygon_shape(ellipse);
-    // 4.1e-5: area of an inscribed polygon, 1 - sin(x)/x with x = 2 pi / 400.
-    EXPECT_NEAR(shape.area, 6.0 * 3.141592653589793, 4.2e-5 * 19.0);
-    EXPECT_NEAR(shape.aspect_ratio, 1.5, 1e-9);
-    EXPECT_NEAR(shape.orientation, 0.4, 1e-9);
-    EXPECT_EQ(polygon_shape(std::vector<Vec2>{{0, 0}, {1, 1}}).aspect_ratio, 1.0);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "common/errors.hpp"
+#include "common/observables/shape.hpp"
 #include "hand_made_grains.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
@@ -80,6 +81,11 @@ TEST_F(WritersTest, GrainsComeBackAsTheyWere) {
         EXPECT_EQ(value(*data, "stress", g, 4), s(1, 1));
         EXPECT_EQ(value(*data, "stress", g, 8), 0.0);
         EXPECT_EQ(value(*data, "temperature", g), static_cast<double>(g));
+        const Shape shape = grain_shapes(view)[g];
+        EXPECT_EQ(value(*data, "aspect_ratio", g), shape.aspect_ratio);
+        EXPECT_EQ(value(*data, "orientation", g), shape.orientation);
+        EXPECT_EQ(value(*data, "asphericity", g), shape.asphericity);
+        EXPECT_EQ(value(*data, "circularity", g), shape.circularity);
         for (const int component : {0, 1}) {
             EXPECT_EQ(value(*data, "stretch", g, component), grains.stretch[4 * g + component]);
             EXPECT_EQ(value(*data, "stretch", g, 3 + component), grains.stretch[4 * g + 2 + component]);
@@ -118,6 +124,7 @@ TEST_F(WritersTest, WithoutOutlinesGrainsArePoints) {
     ASSERT_EQ(data->GetNumberOfVerts(), 16);
     EXPECT_EQ(point(*data, 5), grains.centroid[5]);
     EXPECT_EQ(data->GetCellData()->GetArray("stress"), nullptr);
+    EXPECT_EQ(data->GetCellData()->GetArray("aspect_ratio"), nullptr);
     EXPECT_EQ(value(*data, "area", 5), grains.area[5]);
 }
 

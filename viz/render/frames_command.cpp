@@ -17,6 +17,8 @@ namespace softgrain {
 namespace {
 
 constexpr double rounding = 1e-9;  ///< of a mean stress, times the largest one
+constexpr double strong_grain_force = 0.98, strong_part_force = 0.995;  ///< percentile of the widest line
+constexpr double widest_grain_line = 0.12, widest_part_line = 0.45;     ///< times the mean diameter
 
 RunReader open_run(const std::string& text) {
     const std::size_t equals = text.find('=');
@@ -42,6 +44,11 @@ void check(const FramesRequest& request) {
         if (!(at > 0.0 && at < 2.0)) throw InputError(fmt::format("--at-phi {}: must be 0 to 2", at));
     if (!request.range.empty() && !(request.range[0] < request.range[1]))
         throw InputError("--range: min must be less than max");
+    if (!request.window.empty()) {
+        const auto& w = request.window;
+        if (!(w[0] >= 0.0 && w[0] < w[1] && w[1] <= 1.0 && w[2] >= 0.0 && w[2] < w[3] && w[3] <= 1.0))
+            throw InputError("--window: must be left < right and bottom < top, each 0 to 1");
+    }
     if (request.width < 400 || request.width > 8000) throw InputError("--width: must be 400 to 8000 pixels");
 }
 
@@ -58,32 +65,47 @@ std::vector<std::vector<Frame>> read_frames(const FramesRequest& request,
     std::vector<std::vector<Frame>> frames;
     for (const RunReader& run : runs) {
         auto& row = frames.emplace_back();
-        for (const double at : request.at) row.push_back(run.read(run.frame_at_fraction(at)));
+        for (const double at : request.at) row.push_back(run.read(run.frame_at_fraction(at), request.parts));
         for (const double at : request.at_packing_fraction)
-            row.push_back(run.read(run.frame_at_packing_fraction(at)));
+            row.push_back(run.read(run.frame_at_packing_fraction(at), request.parts));
     }
     return frames;
 }
 
+/// Forces of grains, or of parts, in all frames that draw them.
+ForceScale force_scale(const std::vector<std::vector<Frame>>& frames, bool of_parts) {
+    std::vector<double> forces;
+    double diameter = 0.0, count = 0.0;
+    for (const auto& row : frames)
+        for (const Frame& frame : row) {
+            if ((frame.parts != nullptr) != of_parts || drawn_contacts(frame) == nullptr) continue;
+            const auto of_frame = cell_scalars(*drawn_contacts(frame), "normal_force");
+            forces.insert(forces.end(), of_frame.begin(), of_frame.end());
+            diameter += of_parts ? mean_part_diameter(frame) : mean_diameter(frame);
+            count += 1.0;
+        }
+    if (count == 0.0) return {};
+    return {percentile(forces, of_parts ? strong_part_force : strong_grain_force),
+            (of_parts ? widest_part_line : widest_grain_line) * diameter / count};
+}
+
 SheetScale common_scale(const FramesRequest& request, const std::vector<std::vector<Frame>>& frames) {
-    std::vector<double> values, forces;
-    SheetScale scale{request.field, field_unit(frames[0][0], request.field), {}, 0.0, Vec2::Zero(), 0.0, 0.0};
-    double count = 0.0;
+    std::vector<double> values;
+    SheetScale scale;
+    scale.field = request.field;
+    scale.unit = field_unit(frames[0][0], request.field);
+    scale.grain_forces = force_scale(frames, false);
+    scale.part_forces = force_scale(frames, true);
+    if (!request.window.empty())
+        scale.window = {{request.window[0], request.window[2]}, {request.window[1], request.window[3]}};
     for (const auto& row : frames)
         for (const Frame& frame : row) {
             const auto of_field = field_values(frame, request.field);
             values.insert(values.end(), of_field.begin(), of_field.end());
-            const auto of_contacts = contact_forces(frame);
-            forces.insert(forces.end(), of_contacts.begin(), of_contacts.end());
-            const Extent extent = frame_extent(frame);
-            scale.extent = scale.extent.cwiseMax(extent.high - extent.low);
-            scale.diameter += mean_diameter(frame);
+            scale.extent = scale.extent.cwiseMax(shown_extent(frame, scale.window).size());
             if (std::isfinite(frame.mean_stress))
                 scale.no_stress = std::max(scale.no_stress, rounding * std::abs(frame.mean_stress));
-            count += 1.0;
         }
-    scale.diameter /= count;
-    scale.widest_force = percentile(forces, 0.98);
     scale.colours = request.range.empty() ? robust_range(values)
                                           : given_range(values, request.range[0], request.range[1]);
     if (!(scale.extent.minCoeff() > 0.0)) throw InputError("the frames have no grains");

@@ -11,7 +11,9 @@ struct FramesRequest {
     std::vector<double> at;         ///< fractions of the list of frames
     std::vector<double> at_packing_fraction;
     std::string field = "mean_stress";
-    std::vector<double> range;  ///< empty, or min and max of the colours
+    std::vector<double> range;   ///< empty, or min and max of the colours
+    bool parts = false;          ///< draw what grains are made of, of the runs that wrote it
+    std::vector<double> window;  ///< empty, or left, right, bottom, top as shares of the extent
     std::filesystem::path out;
     int width = 1600;  ///< [pixels]
 };

@@ -40,6 +40,14 @@ int main(int argc, char** argv) {
     frames->add_option("--range", request.range, "MIN,MAX of the colours; else 2nd to 98th percentile with 0")
         ->delimiter(',')
         ->expected(2);
+    frames->add_flag("--parts", request.parts,
+                     "Draw the parts of grains and the forces between them, of runs that wrote them; "
+                     "--field may then be point data of parts.pvd");
+    frames
+        ->add_option("--window", request.window,
+                     "LEFT,RIGHT,BOTTOM,TOP: draw this part only, as shares of width and height, 0 to 1")
+        ->delimiter(',')
+        ->expected(4);
     frames->add_option("--out", request.out, "Folder for the pictures")->required();
     frames->add_option("--width", request.width, "Width of each picture [pixels]")->capture_default_str();
 

@@ -17,6 +17,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -41,6 +42,27 @@ std::string font_file(bool bold) {
 
 double fraction(Align align) {
     return align == Align::low ? 0.0 : align == Align::centre ? 0.5 : 1.0;
+}
+
+/// What of a convex polygon lies in a rectangle (Sutherland and Hodgman 1974).
+std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Vec2& low, const Vec2& high) {
+    for (int side = 0; side < 4; ++side) {
+        const int axis = side / 2;
+        const auto inside = [&](const Vec2& p) {
+            return side % 2 == 0 ? p[axis] - low[axis] : high[axis] - p[axis];
+        };
+        std::vector<Vec2> rest;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Vec2& from = polygon[k];
+            const Vec2& to = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+            const double before = inside(from), after = inside(to);
+            if (before >= 0.0) rest.push_back(from);
+            if ((before >= 0.0) != (after >= 0.0))
+                rest.emplace_back(from + before / (before - after) * (to - from));
+        }
+        polygon = std::move(rest);
+    }
+    return polygon;
 }
 
 }  // namespace
@@ -71,6 +93,12 @@ double text_width(const std::string& words, double size, bool bold) {
 }
 
 void Page::triangle(const Vec2& a, const Vec2& b, const Vec2& c, Colour colour) {
+    if (!clip_) return add_triangle(a, b, c, colour);
+    const std::vector<Vec2> rest = clipped({a, b, c}, (*clip_)[0], (*clip_)[1]);
+    for (std::size_t k = 2; k < rest.size(); ++k) add_triangle(rest[0], rest[k - 1], rest[k], colour);
+}
+
+void Page::add_triangle(const Vec2& a, const Vec2& b, const Vec2& c, Colour colour) {
     corners_.insert(corners_.end(), {a, b, c});
     colours_.push_back(colour);
 }
@@ -102,6 +130,16 @@ void Page::stroke(std::span<const Vec2> line, double width, Colour colour, bool 
             triangle(line[k], line[k] + width / 2.0 * Vec2(std::cos(from), std::sin(from)),
                      line[k] + width / 2.0 * Vec2(std::cos(to), std::sin(to)), colour);
         }
+}
+
+void Page::disc(const Vec2& centre, double radius, Colour colour) {
+    // Corners for a sagitta of a tenth of a pixel.
+    const int corners = std::clamp(static_cast<int>(std::ceil(7.0 * std::sqrt(radius))), 8, 64);
+    const auto corner = [&](int k) {
+        const double angle = 2.0 * std::numbers::pi * k / corners;
+        return Vec2(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+    };
+    for (int k = 2; k < corners; ++k) triangle(corner(0), corner(k - 1), corner(k), colour);
 }
 
 void Page::rectangle(const Vec2& low, const Vec2& high, Colour colour) {

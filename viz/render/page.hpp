@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,8 +47,13 @@ class Page {
     void fill(std::span<const Vec2> polygon, Colour colour);
     /// A line of this width [pixels], its joints round if it is opaque and wide enough for that to show.
     void stroke(std::span<const Vec2> line, double width, Colour colour, bool closed);
+    void disc(const Vec2& centre, double radius, Colour colour);
     void rectangle(const Vec2& low, const Vec2& high, Colour colour);
     void text(const Vec2& at, std::string words, const TextStyle& style);
+
+    /// From now on shapes (not texts) are cut off outside this rectangle, until `unclip`.
+    void clip(const Vec2& low, const Vec2& high) { clip_ = {{low, high}}; }
+    void unclip() { clip_.reset(); }
 
     /// Adds what is on the page to a scene.
     void add_to(vtkRenderer& renderer) const;
@@ -60,6 +66,7 @@ class Page {
         TextStyle style;
     };
     void triangle(const Vec2& a, const Vec2& b, const Vec2& c, Colour colour);
+    void add_triangle(const Vec2& a, const Vec2& b, const Vec2& c, Colour colour);
     void add_shapes(vtkRenderer& renderer) const;
     void add_texts(vtkRenderer& renderer) const;
 
@@ -67,6 +74,7 @@ class Page {
     std::vector<Vec2> corners_;    ///< three for each triangle
     std::vector<Colour> colours_;  ///< one for each triangle
     std::vector<Text> texts_;
+    std::optional<std::array<Vec2, 2>> clip_;  ///< low and high corner
 };
 
 /// Draws a renderer's scene on white. Throws OutputError if VTK reports an error.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
@@ -54,6 +55,8 @@ void require_counts(const fs::path& path, vtkPolyData& data) {
                 piece_count(header, "NumberOfPolys") == data.GetNumberOfPolys();
     for (int a = 0; good && a < data.GetCellData()->GetNumberOfArrays(); ++a)
         good = data.GetCellData()->GetAbstractArray(a)->GetNumberOfTuples() == data.GetNumberOfCells();
+    for (int a = 0; good && a < data.GetPointData()->GetNumberOfArrays(); ++a)
+        good = data.GetPointData()->GetAbstractArray(a)->GetNumberOfTuples() == data.GetNumberOfPoints();
     if (!good) throw OutputError(path.string() + ": is damaged: fewer data than its header says");
 }
 
@@ -132,6 +135,8 @@ RunReader::RunReader(std::string label, fs::path directory)
         throw InputError(fmt::format("{}: has no frames yet", (directory_ / "grains.pvd").string()));
     contacts_ = read_optional_pvd(directory_ / "contacts.pvd");
     walls_ = read_optional_pvd(directory_ / "walls.pvd");
+    parts_ = read_optional_pvd(directory_ / "parts.pvd");
+    part_contacts_ = read_optional_pvd(directory_ / "part_contacts.pvd");
     std::optional<CsvTable> history;
     if (fs::exists(directory_ / "history.csv")) history.emplace(directory_ / "history.csv");
     const CsvTable* table = history ? &*history : nullptr;
@@ -157,7 +162,7 @@ std::size_t RunReader::frame_at_packing_fraction(double packing_fraction) const 
     return *best;
 }
 
-Frame RunReader::read(std::size_t frame) const {
+Frame RunReader::read(std::size_t frame, bool parts) const {
     const FrameFile& file = grains_.at(frame);
     return {file.time,
             packing_fraction_[frame],
@@ -165,7 +170,9 @@ Frame RunReader::read(std::size_t frame) const {
             coordination_number_[frame],
             read_vtp(file.path),
             read_at_time(contacts_, file.time),
-            read_at_time(walls_, file.time)};
+            read_at_time(walls_, file.time),
+            parts ? read_at_time(parts_, file.time) : nullptr,
+            parts ? read_at_time(part_contacts_, file.time) : nullptr};
 }
 
 }  // namespace softgrain

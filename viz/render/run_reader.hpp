@@ -19,11 +19,12 @@ struct FrameFile {
 /// The entries of a .pvd file. Throws OutputError.
 std::vector<FrameFile> read_pvd(const std::filesystem::path& path);
 
-/// What is drawn of one frame. Contacts and walls are null if the run did not write them.
+/// What is drawn of one frame. Contacts and walls are null if the run did not write them, parts and their
+/// contacts if they were not asked for either.
 struct Frame {
     double time;                                                ///< [s]
     double packing_fraction, mean_stress, coordination_number;  ///< nan if the history does not have them
-    vtkSmartPointer<vtkPolyData> grains, contacts, walls;
+    vtkSmartPointer<vtkPolyData> grains, contacts, walls, parts, part_contacts;
 };
 
 class RunReader {
@@ -36,12 +37,13 @@ class RunReader {
     std::size_t frame_at_fraction(double fraction) const;
     /// The frame whose packing fraction in the history is nearest. Throws InputError without a history.
     std::size_t frame_at_packing_fraction(double packing_fraction) const;
-    Frame read(std::size_t frame) const;
+    /// `parts`: with what the grains are made of, if the run wrote it.
+    Frame read(std::size_t frame, bool parts = false) const;
 
   private:
     std::string label_;
     std::filesystem::path directory_;
-    std::vector<FrameFile> grains_, contacts_, walls_;
+    std::vector<FrameFile> grains_, contacts_, walls_, parts_, part_contacts_;
     std::vector<double> packing_fraction_, mean_stress_, coordination_number_;  ///< one per frame
 };
 

@@ -10,7 +10,7 @@ namespace softgrain {
 namespace {
 
 constexpr double tallest_panel = 1.4;  ///< times its width
-constexpr double widest_chain = 0.12;  ///< times the mean diameter of the grains
+constexpr double second_key = 7.0;     ///< distance between two keys of forces, times the font
 
 /// Sizes of everything on the page [pixels].
 struct Layout {
@@ -104,15 +104,25 @@ void draw_scale_bar(Page& page, const SheetScale& scale, const Layout& l, double
               {l.font, Align::centre, Align::high});
 }
 
-void draw_force_key(Page& page, const SheetScale& scale, const Layout& l, double right, double y) {
-    if (scale.widest_force <= 0.0) return;
+void draw_force_key(Page& page, const ForceScale& forces, const std::string& title, const Layout& l,
+                    double right, double y) {
     const double length = 4.0 * l.font;
     const double middle = y + 0.55 * l.font;
-    const double width = widest_chain * scale.diameter * l.scale;
-    draw_chains(page, std::vector<Chain>{{{{right - length, middle}, {right, middle}}, width}});
-    page.text({right, y - 0.5 * l.font}, number_text(scale.widest_force) + " N",
+    draw_chains(page, std::vector<Chain>{
+                          {{{right - length, middle}, {right, middle}}, forces.widest_line * l.scale}});
+    page.text({right, y - 0.5 * l.font}, number_text(forces.widest_force) + " N",
               {l.font, Align::high, Align::high});
-    page.text({right, y + 1.6 * l.font}, "normal force", {l.font, Align::high, Align::low});
+    page.text({right, y + 1.6 * l.font}, title, {l.font, Align::high, Align::low});
+}
+
+void draw_force_keys(Page& page, const SheetScale& scale, const Layout& l, double right, double y) {
+    const bool of_grains = scale.grain_forces.widest_force > 0.0;
+    const bool of_parts = scale.part_forces.widest_force > 0.0;
+    const bool both = of_grains && of_parts;
+    if (of_parts) draw_force_key(page, scale.part_forces, both ? "of parts" : "normal force", l, right, y);
+    if (of_grains)
+        draw_force_key(page, scale.grain_forces, both ? "force of grains" : "normal force", l,
+                       right - (both ? second_key * l.font : 0.0), y);
 }
 
 }  // namespace
@@ -120,8 +130,8 @@ void draw_force_key(Page& page, const SheetScale& scale, const Layout& l, double
 Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
     const Layout l = make_layout(sheet, scale, width);
     Page page(width, static_cast<int>(std::lround(l.height)));
-    const PanelScale panel{scale.field, scale.colours, l.scale, scale.widest_force,
-                           widest_chain * scale.diameter * l.scale};
+    const PanelScale panel{scale.field,        scale.colours,     l.scale,
+                           scale.grain_forces, scale.part_forces, scale.window};
     const auto column_centre = [&](std::size_t c) {
         return l.margin + l.left + static_cast<double>(c) * (l.panel_width + l.gap) + l.panel_width / 2.0;
     };
@@ -137,8 +147,7 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
             const Frame& frame = *sheet.frames[r][c];
             const Vec2 centre{column_centre(c), y + l.panel_height / 2.0};
             draw_panel(page, frame, panel, centre);
-            const Extent extent = frame_extent(frame);
-            const double half = l.scale * (extent.high.y() - extent.low.y()) / 2.0;
+            const double half = l.scale * shown_extent(frame, scale.window).size().y() / 2.0;
             draw_caption(page, frame, scale.no_stress, l, centre.x(), centre.y() + half + 0.3 * l.font);
         }
         if (!is_single(sheet))
@@ -150,7 +159,7 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
     const double base = l.footer - 3.6 * l.font;
     draw_colour_bar(page, scale, l, (width - bar) / 2.0, base, bar);
     draw_scale_bar(page, scale, l, l.margin + l.left, base, 0.2 * width);
-    draw_force_key(page, scale, l, width - l.margin, base);
+    draw_force_keys(page, scale, l, width - l.margin, base);
     return page;
 }
 

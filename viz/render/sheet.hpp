@@ -17,11 +17,11 @@ struct Sheet {
 /// What the panels share apart from the pixels, which follow from the page.
 struct SheetScale {
     std::string field, unit;
-    ColourRange colours;
-    double widest_force;  ///< [N]
-    Vec2 extent;          ///< width and height of the largest box [m]
-    double diameter;      ///< mean of the grains [m]
-    double no_stress;     ///< a mean stress below this is rounding, shown as 0 [N/m]
+    ColourRange colours{};
+    ForceScale grain_forces, part_forces;  ///< none where no frame draws them
+    Window window;
+    Vec2 extent = Vec2::Zero();  ///< width and height of the largest extent shown [m]
+    double no_stress = 0.0;      ///< a mean stress below this is rounding, shown as 0 [N/m]
 };
 
 Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width);

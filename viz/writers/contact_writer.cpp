@@ -13,18 +13,12 @@
 
 #include "common/errors.hpp"
 #include "common/observables/stress.hpp"
-#include "viz/writers/periodic.hpp"
+#include "viz/writers/places.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
 namespace {
-
-/// Foot of the perpendicular from `point` on the wall.
-Vec2 foot_on_wall(const Box& box, int wall, Vec2 point) {
-    point[wall_axis(wall)] = box.position[static_cast<std::size_t>(wall)];
-    return point;
-}
 
 void insert_point(vtkPoints& points, vtkCellArray& lines, const Vec2& p) {
     lines.InsertCellPoint(points.InsertNextPoint(p.x(), p.y(), 0.0));

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "viz/writers/periodic.hpp"
-#include "viz/writers/polygon_shape.hpp"
+#include "common/observables/shape.hpp"
+#include "viz/writers/places.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
@@ -23,11 +23,8 @@ void require_finite(bool finite, std::size_t grain, const char* quantity, double
         throw DivergedError(static_cast<int>(grain), quantity, time, "not a number that can be drawn");
 }
 
-/// Points and polygons, with the shapes that follow from them.
-void add_outlines(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
+void add_polygons(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
     vtkNew<vtkCellArray> polygons;
-    auto aspect_ratio = add_numbers(*data.GetCellData(), "aspect_ratio", "", 1, view.size());
-    auto orientation = add_numbers(*data.GetCellData(), "orientation", "rad", 1, view.size());
     for (std::size_t g = 0; g < view.size(); ++g) {
         const auto first = static_cast<std::size_t>(view.outline_offset[g]);
         const auto last = static_cast<std::size_t>(view.outline_offset[g + 1]);
@@ -38,11 +35,22 @@ void add_outlines(const GrainView& view, std::span<const Vec2> shift, vtkPoints&
             polygons->InsertCellPoint(
                 points.InsertNextPoint(p.x() - shift[g].x(), p.y() - shift[g].y(), 0.0));
         }
-        const PolygonShape shape = polygon_shape(outline);
-        aspect_ratio->SetValue(static_cast<vtkIdType>(g), shape.aspect_ratio);
-        orientation->SetValue(static_cast<vtkIdType>(g), shape.orientation);
     }
     data.SetPolys(polygons);
+}
+
+/// What follows from the outlines.
+void add_shapes(const GrainView& view, vtkPolyData& data) {
+    const std::vector<Shape> shapes = grain_shapes(view);
+    const auto add = [&](std::string_view name, std::string_view unit, double Shape::*value) {
+        auto array = add_numbers(*data.GetCellData(), name, unit, 1, view.size());
+        for (std::size_t g = 0; g < view.size(); ++g)
+            array->SetValue(static_cast<vtkIdType>(g), shapes[g].*value);
+    };
+    add("aspect_ratio", "", &Shape::aspect_ratio);
+    add("orientation", "rad", &Shape::orientation);
+    add("asphericity", "", &Shape::asphericity);
+    add("circularity", "", &Shape::circularity);
 }
 
 void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints& points, vtkPolyData& data) {
@@ -57,14 +65,7 @@ void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints
 
 void add_scalars(vtkPolyData& data, std::string_view name, std::string_view unit,
                  std::span<const double> values) {
-    auto array = add_numbers(*data.GetCellData(), name, unit, 1, values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) array->SetValue(static_cast<vtkIdType>(k), values[k]);
-}
-
-/// A plane tensor xx, xy, yx, yy as the nine components ParaView takes for a tensor; zero out of plane.
-void set_tensor(vtkDoubleArray& array, std::size_t tuple, double xx, double xy, double yx, double yy) {
-    const double components[9] = {xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0};
-    array.SetTuple(static_cast<vtkIdType>(tuple), components);
+    add_field(*data.GetCellData(), {name, unit, 1, values}, values.size());
 }
 
 void add_stress(const GrainView& view, vtkPolyData& data) {
@@ -80,15 +81,6 @@ void add_stress(const GrainView& view, vtkPolyData& data) {
         deviatoric->SetValue(static_cast<vtkIdType>(g), std::hypot((s(0, 0) - s(1, 1)) / 2.0, shear));
     }
     data.GetCellData()->SetActiveTensors("stress");
-}
-
-void add_field(const Field& field, std::size_t grains, vtkPolyData& data) {
-    if (field.components == 1) return add_scalars(data, field.name, field.unit, field.values);
-    auto array = add_numbers(*data.GetCellData(), field.name, field.unit, 9, grains);
-    for (std::size_t g = 0; g < grains; ++g) {
-        const double* t = field.values.data() + 4 * g;
-        set_tensor(*array, g, t[0], t[1], t[2], t[3]);
-    }
 }
 
 void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
@@ -126,10 +118,12 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     add_scalars(*data, "reference_area", "m^2", view.reference_area);
     if (wants(needs_, Need::area)) add_scalars(*data, "area", "m^2", view.area);
     const std::vector<Vec2> shift = shift_into_cell(view);
-    if (wants(needs_, Need::outlines))
-        add_outlines(view, shift, *points, *data);
-    else
+    if (wants(needs_, Need::outlines)) {
+        add_polygons(view, shift, *points, *data);
+        add_shapes(view, *data);
+    } else {
         add_centroids(view, shift, *points, *data);
+    }
     if (!grain_class_.empty()) {
         auto grain_class = add_ids(*data->GetCellData(), "grain_class", grain_class_.size());
         for (std::size_t g = 0; g < grain_class_.size(); ++g)
@@ -138,7 +132,7 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     data->SetPoints(points);
     if (wants(needs_, Need::stress)) add_stress(view, *data);
     if (wants(needs_, Need::fields))
-        for (const Field& field : view.fields) add_field(field, view.size(), *data);
+        for (const Field& field : view.fields) add_field(*data->GetCellData(), field, view.size());
     frames_.add(sample.frame, view.time, *data);
 }
 

@@ -59,6 +59,26 @@ vtkSmartPointer<vtkDoubleArray> add_numbers(vtkDataSetAttributes& to, std::strin
     return array;
 }
 
+void set_tensor(vtkDoubleArray& array, std::size_t tuple, double xx, double xy, double yx, double yy) {
+    const double components[9] = {xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0};
+    array.SetTuple(static_cast<vtkIdType>(tuple), components);
+}
+
+void add_field(vtkDataSetAttributes& to, const Field& field, std::size_t tuples) {
+    const int written = field.components == 1 ? 1 : field.components == 2 ? 3 : 9;
+    auto array = add_numbers(to, field.name, field.unit, written, tuples);
+    for (std::size_t k = 0; k < tuples; ++k) {
+        const double* v = field.values.data() + static_cast<std::size_t>(field.components) * k;
+        const auto tuple = static_cast<vtkIdType>(k);
+        if (field.components == 1)
+            array->SetValue(tuple, v[0]);
+        else if (field.components == 2)
+            array->SetTuple3(tuple, v[0], v[1], 0.0);
+        else
+            set_tensor(*array, k, v[0], v[1], v[2], v[3]);
+    }
+}
+
 vtkSmartPointer<vtkIdTypeArray> add_ids(vtkDataSetAttributes& to, std::string_view name, std::size_t tuples) {
     auto array = vtkSmartPointer<vtkIdTypeArray>::New();
     array->SetName(std::string(name).c_str());

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "common/grain_view.hpp"
+
 class vtkDataSetAttributes;
 class vtkDoubleArray;
 class vtkIdTypeArray;
@@ -19,6 +21,10 @@ void write_vtp(const std::filesystem::path& path, vtkPolyData& data);
 /// VTK's information key UNITS_LABEL.
 vtkSmartPointer<vtkDoubleArray> add_numbers(vtkDataSetAttributes& to, std::string_view name,
                                             std::string_view unit, int components, std::size_t tuples);
+/// A scalar, a vector (third component 0) or a tensor. The field has a value for each of the `tuples`.
+void add_field(vtkDataSetAttributes& to, const Field& field, std::size_t tuples);
+/// A plane tensor as the nine components ParaView takes for a tensor; zero out of plane.
+void set_tensor(vtkDoubleArray& array, std::size_t tuple, double xx, double xy, double yx, double yy);
 vtkSmartPointer<vtkIdTypeArray> add_ids(vtkDataSetAttributes& to, std::string_view name, std::size_t tuples);
 
 }  // namespace softgrain

@@ -1,5 +1,6 @@
 #pragma once
-// Observers that write each frame for ParaView: grains.pvd, contacts.pvd and walls.pvd.
+// Observers that write each frame for ParaView: grains.pvd, contacts.pvd, walls.pvd, and parts.pvd with
+// part_contacts.pvd.
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -11,7 +12,7 @@ namespace softgrain {
 
 /// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids)
 /// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
-/// aspect_ratio, orientation, grain_class if there is more than one, and the method's own fields. In a
+/// aspect_ratio, orientation, asphericity, circularity, grain_class if there is more than one, and the method's own fields. In a
 /// periodic cell each grain is drawn where its centroid lies in the cell.
 class GrainWriter final : public Observer {
   public:
@@ -41,6 +42,25 @@ class ContactWriter final : public Observer {
 
   private:
     FrameCollection frames_;
+};
+
+/// What grains are made of (Need::parts), as points with point data: grain, radius, displacement since the
+/// start, and the method's own fields. Their contacts as lines between them, or to a wall; across a periodic
+/// cell as two halves. Cell data: normal_force, tangential_force, part_i, part_j (-1 - wall), grain_i,
+/// grain_j, is_wall. Of a method whose grains have no parts there are no files.
+class PartWriter final : public Observer {
+  public:
+    /// `contacts`: write those of the parts too.
+    PartWriter(std::filesystem::path run_dir, bool contacts);
+    Need need(const Sample& sample) const override;
+    /// Throws OutputError, and DivergedError if a position, field or force is not finite.
+    void observe(const GrainView& view, const Sample& sample) override;
+    void resume(std::span<const double> frame_times) override;
+
+  private:
+    std::filesystem::path run_dir_;
+    bool contacts_;
+    FrameCollection parts_, part_contacts_;
 };
 
 /// The four walls, or the edges of a periodic cell (field data periodic = 1, reduced tilt), as lines with

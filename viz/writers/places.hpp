@@ -1,5 +1,5 @@
 #pragma once
-// Where the grains of a periodic cell are drawn.
+// Where things are drawn.
 #include <vector>
 
 #include "common/grain_view.hpp"
@@ -14,6 +14,12 @@ inline std::vector<Vec2> shift_into_cell(const GrainView& view) {
     const Box cell = view.box.reduced();
     for (std::size_t g = 0; g < view.size(); ++g) shift[g] = cell.image(cell.image_of(view.centroid[g]));
     return shift;
+}
+
+/// Foot of the perpendicular from `point` on the wall.
+inline Vec2 foot_on_wall(const Box& box, int wall, Vec2 point) {
+    point[wall_axis(wall)] = box.position[static_cast<std::size_t>(wall)];
+    return point;
 }
 
 }  // namespace softgrain
