@@ -13,7 +13,7 @@ namespace {
 constexpr double attraction_stress_per_modulus = 0.28;
 
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 8> table{{
+    static const std::array<KeySpec, 10> table{{
         {"discs_per_grain",
          KeyType::integer,
          std::int64_t{100},
@@ -28,6 +28,18 @@ std::span<const KeySpec> keys() {
          {1.0, 4.0}},
         {"attraction_stress", KeyType::number, std::monostate{}, "N/m",
          "F0/<a0>: largest attraction of two discs / mean disc diameter; 0.28 E if not given", positive},
+        {"attraction_exponent",
+         KeyType::number,
+         7.0,
+         "",
+         "gamma of the attraction F0 (a0/r)^gamma; fastest are 7, 2 and 1",
+         {least_exponent, largest_exponent}},
+        {"attraction_range",
+         KeyType::number,
+         1.0,
+         "a0",
+         "largest gap of two discs that attract each other, a0 the sum of their radii",
+         {least_range, largest_range}},
         {"tolerance",
          KeyType::number,
          1e-4,
@@ -80,6 +92,8 @@ BpmSettings settings_of(const Scenario& scenario) {
             .attraction_stress = settings.has("attraction_stress")
                                      ? settings.number("attraction_stress")
                                      : attraction_stress_per_modulus * scenario.material.youngs_modulus,
+            .attraction_exponent = settings.number("attraction_exponent"),
+            .attraction_range = settings.number("attraction_range"),
             .tolerance = settings.number("tolerance"),
             .step = settings.number("step"),
             .max_iterations = static_cast<int>(settings.integer("max_iterations")),

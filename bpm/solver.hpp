@@ -14,9 +14,11 @@ namespace softgrain::bpm {
 struct BpmSettings {
     int discs_per_grain;
     double disc_size_ratio;
-    double attraction_stress;  ///< F0 / <a0> [N/m]
-    double tolerance;          ///< [mean disc diameters]
-    double step;               ///< time step / sqrt(m d / F0)
+    double attraction_stress;    ///< F0 / <a0> [N/m]
+    double attraction_exponent;  ///< gamma
+    double attraction_range;     ///< largest gap [a0]
+    double tolerance;            ///< [mean disc diameters]
+    double step;                 ///< time step / sqrt(m d / F0)
     int max_iterations;
     double over_relaxation;
     double outline_rho;  ///< [mean disc diameters]
