@@ -9,6 +9,7 @@
 #include "bpm/attraction.hpp"
 #include "bpm/disc_sizes.hpp"
 #include "bpm/outline.hpp"
+#include "bpm/scatter.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
 #include "common/errors.hpp"
 
@@ -16,7 +17,7 @@ namespace softgrain::bpm {
 namespace {
 
 // Units of the preparation: mean disc diameter 1, F0 1, and a disc of the mean diameter has mass 1.
-constexpr double time_step = 0.1;
+constexpr double longest_step = 0.1;
 constexpr double damping = 0.5;          // rate of the velocity damping
 constexpr double start_fraction = 0.4;   // area of the discs / area of the circle they are thrown into
 constexpr double pull = 0.3;             // central force on a disc of mass 1 at distance 1
@@ -24,31 +25,6 @@ constexpr double gathered_speed = 0.01;  // ends the pull
 constexpr int settled_steps = 20;        // the bounds must hold for so many steps in a row
 constexpr int free_steps = 50;           // and then without damping
 constexpr int most_steps = 40000;
-
-std::vector<Vec2> throw_in_circle(const std::vector<double>& radius, Random& random) {
-    double area = 0.0;
-    for (double r : radius) area += r * r;
-    double circle = std::sqrt(area / start_fraction);
-    std::vector<Vec2> x;
-    int misses = 0;
-    while (x.size() < radius.size()) {
-        const double r = radius[x.size()];
-        const double distance = (circle - r) * std::sqrt(random.uniform());
-        const double angle = 2.0 * std::numbers::pi * random.uniform();
-        const Vec2 place{distance * std::cos(angle), distance * std::sin(angle)};
-        bool is_free = true;
-        for (std::size_t k = 0; k < x.size() && is_free; ++k)
-            is_free = (x[k] - place).squaredNorm() > (radius[k] + r) * (radius[k] + r);
-        if (is_free) {
-            x.push_back(place);
-            misses = 0;
-        } else if (++misses > 200) {
-            circle *= 1.05;
-            misses = 0;
-        }
-    }
-    return x;
-}
 
 double largest_overlap(const ContactDynamics& contacts, std::span<const Vec2> x,
                        std::span<const double> radius) {
@@ -64,24 +40,27 @@ double largest_overlap(const ContactDynamics& contacts, std::span<const Vec2> x,
 
 class Preparation {
   public:
-    Preparation(std::vector<double> radius, std::vector<Vec2> x)
+    Preparation(const AggregateSpec& spec, std::vector<double> radius, std::vector<Vec2> x)
         : radius_(std::move(radius)),
           x_(std::move(x)),
           v_(x_.size(), Vec2::Zero()),
           force_(x_.size(), Vec2::Zero()),
           group_(x_.size(), 0),
-          attraction_({1.0}, {0, static_cast<int>(x_.size())}, radius_, 0.5),
+          attraction_({1.0, spec.attraction_exponent, spec.attraction_range},
+                      {0, static_cast<int>(x_.size())}, radius_, 0.5),
           contacts_(ContactSettings{.tolerance = 1e-5, .skin = 0.3, .max_iterations = 2000}) {
         for (double r : radius_) mass_.push_back(4.0 * r * r);
+        time_step_ = longest_step * std::sqrt(governing_mass(mass_));
     }
 
     void step(double pull_strength, double damping_rate) {
-        attraction_.forces(x_, 0.0, force_);
-        const double keep = 1.0 - damping_rate * time_step;
+        const bool gathered = pull_strength == 0.0;
+        attraction_.forces(x_, 0.0, force_, gathered);
+        const double keep = 1.0 - damping_rate * time_step_;
         for (std::size_t d = 0; d < x_.size(); ++d)
-            v_[d] = keep * (v_[d] + time_step * (force_[d] / mass_[d] - pull_strength * x_[d]));
-        contacts_.solve({x_, radius_, mass_, group_, v_, {}}, walls_, time_step);
-        for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += time_step * v_[d];
+            v_[d] = keep * (v_[d] + time_step_ * (force_[d] / mass_[d] - pull_strength * x_[d]));
+        contacts_.solve({x_, radius_, mass_, group_, v_, {}}, walls_, time_step_);
+        for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += time_step_ * v_[d];
     }
 
     /// Root mean square.
@@ -133,6 +112,7 @@ class Preparation {
     std::vector<int> group_;
     Attraction attraction_;
     ContactDynamics contacts_;
+    double time_step_ = longest_step;
     WallMotion walls_{{{-1e9, 1e9, -1e9, 1e9}}, {}};
 };
 
@@ -150,9 +130,9 @@ double scale_to(const Aggregate& grain, double rho, double radius) {
 
 Aggregate prepare_aggregate(const AggregateSpec& spec, double radius) {
     Random random(spec.seed, static_cast<std::uint64_t>(spec.grain));
-    std::vector<double> radii = uniform_volume_radii(spec.discs, spec.diameter_ratio, random);
-    std::vector<Vec2> start = throw_in_circle(radii, random);
-    Preparation preparation(std::move(radii), std::move(start));
+    std::vector<double> radii = draw_disc_radii(spec.sizes, spec.discs, random);
+    std::vector<Vec2> start = scatter_in_circle(radii, start_fraction, random);
+    Preparation preparation(spec, std::move(radii), std::move(start));
     Aggregate grain;
     grain.steps = preparation.settle(preparation.gather());
     grain.speed = preparation.speed();
@@ -168,7 +148,10 @@ Aggregate prepare_aggregate(const AggregateSpec& spec, double radius) {
     grain.radius = preparation.radius();
     const double scale = scale_to(grain, spec.outline_rho, radius);
     for (Vec2& place : grain.x) place *= scale;
-    for (double& r : grain.radius) r *= scale;
+    for (double& r : grain.radius) {
+        r *= scale;
+        grain.internal_packing_fraction += r * r / (radius * radius);
+    }
     return grain;
 }
 

@@ -1,16 +1,20 @@
 #pragma once
-// Preparation of one grain: discs drawn together at random, then relaxed under their own attraction.
+// Preparation of one grain: discs thrown at random, drawn together, then relaxed under their own attraction.
 #include <cstdint>
 #include <vector>
 
+#include "bpm/disc_sizes.hpp"
 #include "common/vec.hpp"
 
 namespace softgrain::bpm {
 
+/// All that a grain of radius 1 follows from.
 struct AggregateSpec {
     int discs = 100;
-    double diameter_ratio = 1.625;  ///< largest / smallest disc
-    double outline_rho = 0.3;       ///< closing radius of the outline, in mean disc diameters
+    DiscSizes sizes = {};
+    double attraction_exponent = 7.0;  ///< gamma
+    double attraction_range = 1.0;     ///< largest gap [a0]
+    double outline_rho = 0.3;          ///< closing radius of the outline, in mean disc diameters
     std::uint64_t seed = 1;
     int grain = 0;  ///< index: its own stream of random numbers
 };
@@ -19,8 +23,9 @@ struct AggregateSpec {
 struct Aggregate {
     std::vector<Vec2> x;
     std::vector<double> radius;
-    double speed = 0.0;    ///< root mean square speed left, in sqrt(F0 d / m)
-    double overlap = 0.0;  ///< largest overlap left, in mean disc diameters
+    double speed = 0.0;                      ///< root mean square speed left, in sqrt(F0 d / m)
+    double overlap = 0.0;                    ///< largest overlap left, in mean disc diameters
+    double internal_packing_fraction = 0.0;  ///< area of the discs / area inside the outline
     int steps = 0;
 };
 

@@ -1,157 +1,79 @@
 #include "bpm/attraction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "common/errors.hpp"
-#include "common/neighbors.hpp"
 
 namespace softgrain::bpm {
 namespace {
 
-constexpr int vector_length = 8;
-constexpr double far_away = 1e150;
 constexpr std::size_t discs_worth_threads = 1000;
 
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
+void check(const AttractionLaw& law, double skin) {
+    if (!(law.exponent >= least_exponent && law.exponent <= largest_exponent))
+        throw InputError(fmt::format("attraction: the exponent must be {} to {}, got {}", least_exponent,
+                                     largest_exponent, law.exponent));
+    if (!(law.range >= least_range && law.range <= largest_range))
+        throw InputError(fmt::format("attraction: the range must be {} to {} a0, got {}", least_range,
+                                     largest_range, law.range));
+    if (!(law.maximum_force > 0.0) || !(skin > 0.0))
+        throw InputError("attraction: the largest force and the skin must be > 0");
 }
 
 }  // namespace
 
-double AttractionLaw::potential(double distance, double a0) const {
-    if (distance >= 2.0 * a0) return 0.0;
-    const double at_cut_off = maximum_force * a0 / 6.0 / 64.0;
-    if (distance >= a0) {
-        const double q = a0 * a0 / (distance * distance);
-        return at_cut_off - maximum_force * a0 / 6.0 * q * q * q;
-    }
-    const double at_touch = at_cut_off - maximum_force * a0 / 6.0;
-    return at_touch - maximum_force / (2.0 * a0) * (a0 * a0 - distance * distance);
-}
-
-Attraction::Attraction(AttractionLaw law, std::vector<int> grain_start, std::span<const double> radius,
+Attraction::Attraction(const AttractionLaw& law, std::vector<int> grain_start, std::span<const double> radius,
                        double skin)
     : law_(law),
       grain_start_(std::move(grain_start)),
       skin_(skin),
       radius_(radius.begin(), radius.end()),
-      x_(radius.size() + 1, far_away),
-      y_(radius.size() + 1, far_away),
-      lists_(grain_start_.size() - 1) {
-    radius_.push_back(1.0);
+      grains_(grain_start_.size() - 1),
+      energy_(radius.size(), 0.0) {
+    check(law, skin);
 }
 
-void Attraction::forces(std::span<const Vec2> x, double time, std::span<Vec2> force) {
-    const std::size_t grains = lists_.size();
+void Attraction::forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered) {
     const bool first = built_at_.empty();
     if (first) built_at_.assign(x.begin(), x.end());
-    int lost = -1;
-#pragma omp parallel for schedule(static) if (x.size() > discs_worth_threads) reduction(max : lost)
-    for (std::size_t g = 0; g < grains; ++g) {
-        for (std::size_t d = at(grain_start_[g]); d < at(grain_start_[g + 1]); ++d) {
-            x_[d] = x[d].x();
-            y_[d] = x[d].y();
-        }
-        if (first || stale(g, x)) {
-            std::copy(x.begin() + grain_start_[g], x.begin() + grain_start_[g + 1],
-                      built_at_.begin() + grain_start_[g]);
+    int lost = -1, rebuilt = 0;
+#pragma omp parallel for schedule(static) if (x.size() > discs_worth_threads) \
+    reduction(max : lost) reduction(+ : rebuilt)
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        DiscStripes& grain = grains_[g];
+        const std::span<const Vec2> here = own(x, g);
+        if (!first) grain.move_to(here);
+        if (first || !(4.0 * grain.largest_square_move() < skin_ * skin_)) {
+            std::copy(here.begin(), here.end(), built_at_.begin() + grain_start_[g]);
             rebuild(g);
-            if (has_lost_disc(g)) lost = std::max(lost, static_cast<int>(g));
+            ++rebuilt;
+            if (gathered && grain.has_lost_disc()) lost = std::max(lost, static_cast<int>(g));
         }
-        force_in_grain(g, force);
+        attract(law_, grain.discs(), own(force, g).data()->data());
     }
+    rebuilds_ += rebuilt;
     if (lost >= 0)
         throw DivergedError(lost, "disc position", time,
-                            "a disc has left its grain; load more slowly or use a smaller bpm.step");
+                            "a disc has left its grain; load more slowly, use a smaller bpm.step or a larger "
+                            "bpm.attraction_range");
 }
 
-double Attraction::energy(std::span<const Vec2> x) const {
-    double sum = 0.0;
-    for (std::size_t g = 0; g < lists_.size(); ++g) {
-        const GrainList& list = lists_[g];
-        for (int d = grain_start_[g]; d < grain_start_[g + 1]; ++d) {
-            const std::size_t row = at(d - grain_start_[g]);
-            for (int k = list.start[row]; k < list.start[row + 1]; ++k) {
-                const int other = list.neighbor[at(k)];
-                if (other <= d || at(other) == x.size()) continue;
-                sum += law_.potential((x[at(other)] - x[at(d)]).norm(), radius_[at(d)] + radius_[at(other)]);
-            }
-        }
+double Attraction::energy(std::span<const Vec2> x) {
+    if (built_at_.empty()) return 0.0;
+#pragma omp parallel for schedule(static) if (x.size() > discs_worth_threads)
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        grains_[g].move_to(own(x, g));
+        find_potentials(law_, grains_[g].discs(), own(std::span<double>(energy_), g).data());
     }
-    return sum;
-}
-
-bool Attraction::stale(std::size_t grain, std::span<const Vec2> x) const {
-    const std::size_t first = at(grain_start_[grain]);
-    const std::size_t last = at(grain_start_[grain + 1]);
-    // The motion of the grain as a whole brings no disc nearer to another.
-    Vec2 drift = Vec2::Zero();
-    for (std::size_t d = first; d < last; ++d) drift += x[d] - built_at_[d];
-    drift /= static_cast<double>(last - first);
-    double moved = 0.0;
-    for (std::size_t d = first; d < last; ++d)
-        moved = std::max(moved, (x[d] - built_at_[d] - drift).squaredNorm());
-    return !(2.0 * std::sqrt(moved) < skin_);
+    return std::accumulate(energy_.begin(), energy_.end(), 0.0);
 }
 
 void Attraction::rebuild(std::size_t grain) {
-    const int first = grain_start_[grain];
-    const auto count = at(grain_start_[grain + 1] - first);
-    std::vector<double> reach(count);
-    for (std::size_t k = 0; k < count; ++k) reach[k] = 2.0 * radius_[at(first) + k];
-    NeighborList near;
-    near.build(std::span<const Vec2>(built_at_).subspan(at(first), count), reach, skin_);
-
-    std::vector<int> degree(count, 0);
-    for (const Pair& p : near.pairs()) {
-        ++degree[at(p.i)];
-        ++degree[at(p.j)];
-    }
-    GrainList& list = lists_[grain];
-    list.start.assign(count + 1, 0);
-    for (std::size_t k = 0; k < count; ++k)
-        list.start[k + 1] = list.start[k] + (degree[k] + vector_length - 1) / vector_length * vector_length;
-    list.neighbor.assign(at(list.start.back()), static_cast<int>(built_at_.size()));
-    std::vector<int> fill(list.start.begin(), list.start.end() - 1);
-    for (const Pair& p : near.pairs()) {
-        list.neighbor[at(fill[at(p.i)]++)] = first + p.j;
-        list.neighbor[at(fill[at(p.j)]++)] = first + p.i;
-    }
-}
-
-bool Attraction::has_lost_disc(std::size_t grain) const {
-    const GrainList& list = lists_[grain];
-    if (list.start.size() <= 2) return false;  // a grain of one disc
-    for (std::size_t k = 0; k + 1 < list.start.size(); ++k)
-        if (list.start[k] == list.start[k + 1]) return true;
-    return false;
-}
-
-void Attraction::force_in_grain(std::size_t grain, std::span<Vec2> force) const {
-    const GrainList& list = lists_[grain];
-    const double* const x = x_.data();
-    const double* const y = y_.data();
-    const double* const radius = radius_.data();
-    const int* const neighbor = list.neighbor.data();
-    for (int d = grain_start_[grain]; d < grain_start_[grain + 1]; ++d) {
-        const std::size_t row = at(d - grain_start_[grain]);
-        const double xd = x[d], yd = y[d], rd = radius[d];
-        double fx = 0.0, fy = 0.0;
-#pragma omp simd reduction(+ : fx, fy)
-        for (int k = list.start[row]; k < list.start[row + 1]; ++k) {
-            const int other = neighbor[k];
-            const double dx = x[other] - xd;
-            const double dy = y[other] - yd;
-            const double a0 = rd + radius[other];
-            const double q = std::min(1.0, a0 * a0 / (dx * dx + dy * dy));
-            const double q2 = q * q;
-            const double f = q > 0.25 ? q2 * q2 / a0 : 0.0;
-            fx += f * dx;
-            fy += f * dy;
-        }
-        force[at(d)] = law_.maximum_force * Vec2{fx, fy};
-    }
+    grains_[grain].build(own(std::span<const Vec2>(built_at_), grain),
+                         own(std::span<const double>(radius_), grain), law_.cut_off(), skin_);
 }
 
 void Attraction::save(Checkpoint& to, const std::string& prefix) const {
@@ -161,9 +83,9 @@ void Attraction::save(Checkpoint& to, const std::string& prefix) const {
 void Attraction::load(const Checkpoint& from, const std::string& prefix) {
     from.get(prefix + "built_at", built_at_);
     if (built_at_.empty()) return;
-    if (built_at_.size() + 1 != radius_.size())
+    if (built_at_.size() != radius_.size())
         throw InputError("checkpoint: the attraction lists are for another number of discs");
-    for (std::size_t g = 0; g < lists_.size(); ++g) rebuild(g);
+    for (std::size_t g = 0; g < grains_.size(); ++g) rebuild(g);
 }
 
 }  // namespace softgrain::bpm

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bpm/solver.hpp"
+#include "common/errors.hpp"
 #include "common/refusals.hpp"
 
 namespace softgrain::bpm {
@@ -12,22 +13,54 @@ namespace {
 // The paper's figure 6: BPM grains yield at 0.05 E of its MPM grains, and at 0.18 F0/<a0> here.
 constexpr double attraction_stress_per_modulus = 0.28;
 
+constexpr int default_discs_per_grain = 100;
+
+DiscSizeLaw law_named(const std::string& name) {
+    if (name == "uniform") return DiscSizeLaw::uniform;
+    if (name == "single") return DiscSizeLaw::single;
+    return DiscSizeLaw::uniform_volume;
+}
+
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 8> table{{
+    static const std::array<KeySpec, 12> table{{
         {"discs_per_grain",
          KeyType::integer,
-         std::int64_t{100},
+         std::monostate{},
          "",
-         "discs in a grain of the mean radius; a larger grain has more discs of the same size",
+         "discs in a grain of the mean radius; a larger grain has more discs of the same size; 100 if "
+         "neither "
+         "this nor disc_diameter is given",
          {1.0, 100000.0}},
+        {"disc_diameter", KeyType::number, std::monostate{}, "m",
+         "mean disc diameter, instead of discs_per_grain; kept to 2 % in grains of 100 discs", positive},
+        {"disc_size_law",
+         KeyType::text,
+         std::string("uniform_volume"),
+         "",
+         "what is uniform between the least and the largest disc: its area, or its diameter; or all are "
+         "alike",
+         any_number,
+         {"uniform_volume", "uniform", "single"}},
         {"disc_size_ratio",
          KeyType::number,
          1.625,
          "",
-         "largest / smallest disc diameter; disc areas are uniformly distributed",
-         {1.0, 4.0}},
+         "largest / smallest disc diameter; above 1.6 the time step follows the smallest disc",
+         {1.0, 20.0}},
         {"attraction_stress", KeyType::number, std::monostate{}, "N/m",
          "F0/<a0>: largest attraction of two discs / mean disc diameter; 0.28 E if not given", positive},
+        {"attraction_exponent",
+         KeyType::number,
+         7.0,
+         "",
+         "gamma of the attraction F0 (a0/r)^gamma; fastest are 7, 2 and 1",
+         {least_exponent, largest_exponent}},
+        {"attraction_range",
+         KeyType::number,
+         1.0,
+         "a0",
+         "largest gap of two discs that attract each other, a0 the sum of their radii",
+         {least_range, largest_range}},
         {"tolerance",
          KeyType::number,
          1e-4,
@@ -75,11 +108,21 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 BpmSettings settings_of(const Scenario& scenario) {
     const auto given = scenario.method_settings.find("bpm");
     const Settings settings = given == scenario.method_settings.end() ? Settings(keys()) : given->second;
-    return {.discs_per_grain = static_cast<int>(settings.integer("discs_per_grain")),
-            .disc_size_ratio = settings.number("disc_size_ratio"),
+    if (settings.has("discs_per_grain") && settings.has("disc_diameter"))
+        throw InputError("[bpm] has both discs_per_grain and disc_diameter; keep one");
+    const auto optional = [&](std::string_view key) {
+        return settings.has(key) ? std::optional(settings.number(key)) : std::nullopt;
+    };
+    return {.discs_per_grain = settings.has("discs_per_grain")
+                                   ? static_cast<int>(settings.integer("discs_per_grain"))
+                                   : default_discs_per_grain,
+            .disc_diameter = optional("disc_diameter"),
+            .disc_sizes = {law_named(settings.text("disc_size_law")), settings.number("disc_size_ratio")},
             .attraction_stress = settings.has("attraction_stress")
                                      ? settings.number("attraction_stress")
                                      : attraction_stress_per_modulus * scenario.material.youngs_modulus,
+            .attraction_exponent = settings.number("attraction_exponent"),
+            .attraction_range = settings.number("attraction_range"),
             .tolerance = settings.number("tolerance"),
             .step = settings.number("step"),
             .max_iterations = static_cast<int>(settings.integer("max_iterations")),

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numbers>
 #include <numeric>
 
-#include "bpm/aggregate.hpp"
+#include "bpm/prepare_grains.hpp"
 #include "common/errors.hpp"
 
 namespace softgrain::bpm {
@@ -41,25 +40,10 @@ BpmSolver::Assembly BpmSolver::assemble(const Scenario& scenario, const Packing&
                                         const BpmSettings& settings) {
     const auto grains = static_cast<int>(packing.size());
     if (grains == 0) throw InputError("bpm: the packing has no grains");
-    const double mean_radius = packing.mean_radius();
-    std::vector<Aggregate> aggregates(packing.size());
-    std::vector<std::exception_ptr> failure(packing.size());
-#pragma omp parallel for schedule(dynamic)
-    for (int g = 0; g < grains; ++g) {
-        const double size = packing.radius[at(g)] / mean_radius;
-        const int count = std::max(1, static_cast<int>(std::lround(settings.discs_per_grain * size * size)));
-        try {
-            aggregates[at(g)] =
-                prepare_aggregate({count, settings.disc_size_ratio, settings.outline_rho, scenario.seed, g},
-                                  packing.radius[at(g)]);
-        } catch (...) {
-            failure[at(g)] = std::current_exception();
-        }
-    }
+    const std::vector<Aggregate> aggregates = prepare_grains(scenario, packing, settings);
     Assembly all;
     all.grain_start.push_back(0);
     for (int g = 0; g < grains; ++g) {
-        if (failure[at(g)]) std::rethrow_exception(failure[at(g)]);
         const Aggregate& grain = aggregates[at(g)];
         const Mat2 frame = packing.frame_of(at(g));
         const double area = std::numbers::pi * packing.radius[at(g)] * packing.radius[at(g)];
@@ -96,8 +80,9 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
       rim_speed_before_(x_.size(), 0.0),
       diameter_(2.0 * mean_of(radius_)),
       maximum_force_(settings.attraction_stress * diameter_),
-      time_step_(settings.step * std::sqrt(mean_of(mass_) * diameter_ / maximum_force_)),
-      attraction_({maximum_force_}, grain_start_, radius_, attraction_skin * diameter_),
+      time_step_(settings.step * std::sqrt(governing_mass(mass_) * diameter_ / maximum_force_)),
+      attraction_({maximum_force_, settings.attraction_exponent, settings.attraction_range}, grain_start_,
+                  radius_, attraction_skin * diameter_),
       contacts_({.tolerance = settings.tolerance * diameter_,
                  .skin = contact_skin * diameter_,
                  .max_iterations = settings.max_iterations,

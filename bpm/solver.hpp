@@ -1,10 +1,12 @@
 #pragma once
 // The bonded-particle method as a Solver: every grain is an aggregate of rigid discs.
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "bpm/attraction.hpp"
 #include "bpm/disc_contacts.hpp"
+#include "bpm/disc_sizes.hpp"
 #include "bpm/grain_contacts.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
 #include "common/observables/affine_fit.hpp"
@@ -15,10 +17,13 @@ namespace softgrain::bpm {
 /// Values of the scenario table [bpm]; see bpm/method.cpp for units and defaults.
 struct BpmSettings {
     int discs_per_grain;
-    double disc_size_ratio;
-    double attraction_stress;  ///< F0 / <a0> [N/m]
-    double tolerance;          ///< [mean disc diameters]
-    double step;               ///< time step / sqrt(m d / F0)
+    std::optional<double> disc_diameter;  ///< [m], replaces discs_per_grain
+    DiscSizes disc_sizes;
+    double attraction_stress;    ///< F0 / <a0> [N/m]
+    double attraction_exponent;  ///< gamma
+    double attraction_range;     ///< largest gap [a0]
+    double tolerance;            ///< [mean disc diameters]
+    double step;                 ///< time step / sqrt(m d / F0)
     int max_iterations;
     double over_relaxation;
     double outline_rho;  ///< [mean disc diameters]

@@ -5,44 +5,13 @@
 #include <numbers>
 
 #include "bpm/aggregate.hpp"
-#include "bpm/disc_sizes.hpp"
 #include "bpm/outline.hpp"
 
 namespace softgrain::bpm {
 namespace {
 
 Aggregate grain(int discs, std::uint64_t seed, int index, double radius = 1.0) {
-    return prepare_aggregate({discs, 1.625, 0.3, seed, index}, radius);
-}
-
-TEST(DiscSizes, VolumesAreUniform) {
-    Random random(4, 2);
-    const double k = 1.625;
-    const int count = 20000;
-    std::vector<double> radii = uniform_volume_radii(count, k, random);
-    std::sort(radii.begin(), radii.end());
-    const double low = radii.front(), high = radii.back();
-    EXPECT_LE(high / low, k);
-    EXPECT_GT(high / low, 0.999 * k);
-    double mean = 0.0;
-    for (double r : radii) mean += 2.0 * r / count;
-    EXPECT_NEAR(mean, 1.0, 0.004);  // 4 standard errors: deviation 0.13 / sqrt(20000) = 0.0009
-    // Kolmogorov-Smirnov distance of the areas from the uniform distribution; 1.63 / sqrt(n) at 1 %.
-    double distance = 0.0;
-    for (int n = 0; n < count; ++n) {
-        const double r = radii[static_cast<std::size_t>(n)];
-        const double u = (r * r - low * low) / (high * high - low * low);
-        distance = std::max(distance, std::abs(u - (n + 0.5) / count));
-    }
-    EXPECT_LT(distance, 1.63 / std::sqrt(count));
-}
-
-TEST(DiscSizes, StreamsDiffer) {
-    Random a(1, 0), b(1, 1), c(2, 0), again(1, 0);
-    const double first = a.uniform();
-    EXPECT_NE(first, b.uniform());
-    EXPECT_NE(first, c.uniform());
-    EXPECT_EQ(first, again.uniform());
+    return prepare_aggregate({.discs = discs, .seed = seed, .grain = index}, radius);
 }
 
 TEST(Aggregate, MeetsItsBounds) {
@@ -74,6 +43,7 @@ TEST(Aggregate, IsCompactAndRound) {
         }
         EXPECT_GT(area, 0.84);
         EXPECT_LT(area, 0.89);
+        EXPECT_NEAR(a.internal_packing_fraction, area, 1e-12);
         EXPECT_LT((center / area).norm(), 1e-12);
         EXPECT_LT(reach, 1.25);
     }
@@ -98,6 +68,36 @@ TEST(Aggregate, OutlineEnclosesTheGivenArea) {
         const double area = Outline(a.x, a.radius, 0.3 * diameter, pairs).area();
         // 2 %: rho is 0.3 of the mean diameter of the distribution, here of the 60 discs.
         EXPECT_NEAR(area / (std::numbers::pi * radius * radius), 1.0, 0.02);
+    }
+}
+
+TEST(Aggregate, EveryLawOfSizesAndAttractionMeetsTheBounds) {
+    for (const AggregateSpec& spec :
+         std::vector<AggregateSpec>{{.discs = 60, .sizes = {DiscSizeLaw::single, 1.0}},
+                                    {.discs = 60, .sizes = {DiscSizeLaw::uniform, 20.0}},
+                                    {.discs = 60, .sizes = {DiscSizeLaw::uniform_volume, 20.0}},
+                                    {.discs = 60, .attraction_exponent = 1.0},
+                                    {.discs = 60, .attraction_exponent = 30.0},
+                                    {.discs = 60, .attraction_range = 0.05},
+                                    {.discs = 60, .attraction_exponent = 2.5, .attraction_range = 3.0},
+                                    {.discs = 2},
+                                    {.discs = 3, .attraction_range = 0.05}}) {
+        const Aggregate a = prepare_aggregate(spec, 1.0);
+        double diameter = 0.0, overlap = 0.0, area = 0.0;
+        const auto discs = static_cast<double>(spec.discs);
+        for (double r : a.radius) {
+            diameter += 2.0 * r / discs;
+            area += r * r;
+        }
+        for (std::size_t i = 0; i < a.x.size(); ++i)
+            for (std::size_t j = i + 1; j < a.x.size(); ++j)
+                overlap = std::max(overlap, a.radius[i] + a.radius[j] - (a.x[i] - a.x[j]).norm());
+        // The bound is in the mean diameter of the law, which these 60 discs have only nearly (20 %).
+        EXPECT_LT(overlap / diameter, 1.3 * aggregate_overlap_bound);
+        EXPECT_LT(a.speed, aggregate_speed_bound);
+        // Two discs fill nearly all that encloses them; a crystal of equal discs 0.9069.
+        EXPECT_GT(area, 0.84);
+        EXPECT_LT(area, 0.99);
     }
 }
 

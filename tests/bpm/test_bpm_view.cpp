@@ -124,7 +124,8 @@ TEST(BpmView, OutlinesAreCounterClockwiseAndHoldTheArea) {
         const auto first = static_cast<std::size_t>(view.outline_offset[g]);
         const auto last = static_cast<std::size_t>(view.outline_offset[g + 1]);
         const double area = polygon_area(view.outline_point.subspan(first, last - first));
-        EXPECT_NEAR(area / view.area[g], 1.0, 0.01);
+        // Only the polygon counts pores that rho enters; one of a disc's size is 1.4 % of a grain of 60.
+        EXPECT_NEAR(area / view.area[g], 1.0, 0.02);
         for (std::size_t k = first; k < last; ++k)
             for (int wall = 0; wall < 4; ++wall)
                 EXPECT_GT(sample.box.distance(wall, view.outline_point[k]),
