@@ -36,11 +36,12 @@ Attraction::Attraction(const AttractionLaw& law, std::vector<int> grain_start, s
     check(law, skin);
 }
 
-void Attraction::forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered) {
+void Attraction::forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered,
+                        bool threads) {
     const bool first = built_at_.empty();
     if (first) built_at_.assign(x.begin(), x.end());
     int lost = -1, rebuilt = 0;
-#pragma omp parallel for schedule(static) if (x.size() > discs_worth_threads) \
+#pragma omp parallel for schedule(static) if (threads && x.size() > discs_worth_threads) \
     reduction(max : lost) reduction(+ : rebuilt)
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         DiscStripes& grain = grains_[g];

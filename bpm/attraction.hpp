@@ -23,7 +23,8 @@ class Attraction {
     /// Force on every disc [N]. Refreshes the neighbours of grains that have changed too much. Throws
     /// DivergedError naming the grain if a disc is out of reach of every other disc of its grain, unless
     /// they are still to be gathered.
-    void forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered = true);
+    void forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered = true,
+                bool threads = true);
 
     /// Sum of the pair potentials [J per unit thickness]; 0 before the first call of forces().
     double energy(std::span<const Vec2> x);

@@ -21,8 +21,22 @@ DiscSizeLaw law_named(const std::string& name) {
     return DiscSizeLaw::uniform_volume;
 }
 
+GrainBehaviour behaviour_named(const std::string& name) {
+    if (name == "elastic") return GrainBehaviour::elastic;
+    if (name == "brittle") return GrainBehaviour::brittle;
+    return GrainBehaviour::plastic;
+}
+
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 12> table{{
+    static const std::array<KeySpec, 19> table{{
+        {"grain",
+         KeyType::text,
+         std::string("plastic"),
+         "",
+         "what holds a grain's discs together: attraction (plastic), bonds (elastic), bonds that break "
+         "(brittle)",
+         any_number,
+         {"plastic", "elastic", "brittle"}},
         {"discs_per_grain",
          KeyType::integer,
          std::monostate{},
@@ -80,6 +94,23 @@ std::span<const KeySpec> keys() {
          "",
          "of the contact solver; rows with friction use 1",
          {0.0, 2.0, true, true}},
+        {"rolling_resistance", KeyType::number, 0.0, "",
+         "of discs, inside grains and between them: largest torque / (normal force x sum of the radii); acts "
+         "with friction only",
+         not_negative},
+        {"friction_within", KeyType::number, 0.0, "", "Coulomb coefficient between the discs of a grain",
+         not_negative},
+        {"bond_stiffness", KeyType::number, std::monostate{}, "N/m",
+         "force / stretch of a bond; youngs_modulus if not given", positive},
+        {"bond_strength", KeyType::number, std::monostate{}, "N/m",
+         "largest tension of a bond / mean disc diameter, for brittle grains", positive},
+        {"bond_damping", KeyType::number, 0.2, "", "share of a bond's critical damping", {0.0, 1.0}},
+        {"bond_reach",
+         KeyType::number,
+         0.3,
+         "disc diameters",
+         "discs with a smaller gap are bonded",
+         {1e-3, 1.0}},
         {"outline_rho",
          KeyType::number,
          0.3,
@@ -113,7 +144,13 @@ BpmSettings settings_of(const Scenario& scenario) {
     const auto optional = [&](std::string_view key) {
         return settings.has(key) ? std::optional(settings.number(key)) : std::nullopt;
     };
-    return {.discs_per_grain = settings.has("discs_per_grain")
+    const GrainBehaviour behaviour = behaviour_named(settings.text("grain"));
+    if (settings.has("bond_strength") != (behaviour == GrainBehaviour::brittle))
+        throw InputError(behaviour == GrainBehaviour::brittle
+                             ? "[bpm] grain = \"brittle\" needs bond_strength"
+                             : "[bpm] bond_strength is for grain = \"brittle\"; leave it out");
+    return {.behaviour = behaviour,
+            .discs_per_grain = settings.has("discs_per_grain")
                                    ? static_cast<int>(settings.integer("discs_per_grain"))
                                    : default_discs_per_grain,
             .disc_diameter = optional("disc_diameter"),
@@ -127,7 +164,13 @@ BpmSettings settings_of(const Scenario& scenario) {
             .step = settings.number("step"),
             .max_iterations = static_cast<int>(settings.integer("max_iterations")),
             .over_relaxation = settings.number("over_relaxation"),
-            .outline_rho = settings.number("outline_rho")};
+            .outline_rho = settings.number("outline_rho"),
+            .bond_stiffness = optional("bond_stiffness").value_or(scenario.material.youngs_modulus),
+            .bond_strength = optional("bond_strength").value_or(0.0),
+            .bond_damping = settings.number("bond_damping"),
+            .bond_reach = settings.number("bond_reach"),
+            .friction_within = settings.number("friction_within"),
+            .rolling_resistance = settings.number("rolling_resistance")};
 }
 
 const Method& method() {

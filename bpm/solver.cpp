@@ -1,6 +1,7 @@
 #include "bpm/solver.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +20,15 @@ constexpr double attraction_skin = 0.5;
 // Placing the aggregates: overlaps are removed at rest, then the grains come to rest under their own forces.
 constexpr int most_placing_steps = 300;
 constexpr int most_resting_steps = 1000;
-constexpr double largest_push = 0.05;     // overlap removed in a step [mean disc diameters]
-constexpr double placed_overlap = 1e-3;   // [mean disc diameters]
-constexpr double resting_speed = 2e-3;    // root mean square, in sqrt(F0 d / m)
-constexpr double resting_damping = 0.5;   // rate, in sqrt(F0 / (m d))
-constexpr double misfit_overlap = 0.02;   // a packing that keeps more overlap is too dense
+constexpr double largest_push = 0.05;    // overlap removed in a step [mean disc diameters]
+constexpr double placed_overlap = 1e-3;  // [mean disc diameters]
+constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
+constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
+constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
+constexpr std::size_t discs_worth_threads = 1000;
+constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
+constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
+constexpr double most_unconverged = 0.05;
 constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
 
 std::size_t at(int k) {
@@ -68,7 +73,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing)
 BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const BpmSettings& settings,
                      Assembly assembly)
     : settings_(settings),
-      friction_(scenario.material.friction),
+      rubs_(scenario.material.friction > 0.0 || settings.friction_within > 0.0),
       grain_start_(std::move(assembly.grain_start)),
       x_(std::move(assembly.x)),
       v_(x_.size(), Vec2::Zero()),
@@ -79,17 +84,17 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
       rim_speed_(x_.size(), 0.0),
       rim_speed_before_(x_.size(), 0.0),
       diameter_(2.0 * mean_of(radius_)),
-      maximum_force_(settings.attraction_stress * diameter_),
-      time_step_(settings.step * std::sqrt(governing_mass(mass_) * diameter_ / maximum_force_)),
+      maximum_force_(settings.stress_scale() * diameter_),
       attraction_({maximum_force_, settings.attraction_exponent, settings.attraction_range}, grain_start_,
                   radius_, attraction_skin * diameter_),
       contacts_({.tolerance = settings.tolerance * diameter_,
                  .skin = contact_skin * diameter_,
                  .max_iterations = settings.max_iterations,
                  .over_relaxation = settings.over_relaxation,
-                 .within = {},
-                 .between = {.friction = friction_},
+                 .within = {settings.friction_within, rubs_ ? settings.rolling_resistance : 0.0},
+                 .between = {scenario.material.friction, rubs_ ? settings.rolling_resistance : 0.0},
                  .largest_push = largest_push * diameter_}),
+      threads_(x_.size() >= discs_worth_threads ? omp_get_max_threads() : 1),
       box_(packing.box),
       reference_area_(std::move(assembly.reference_area)) {
     for (std::size_t g = 0; g < grains(); ++g) {
@@ -98,8 +103,18 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
         disc_count_.push_back(count);
         grain_mass_.push_back(scenario.material.density * reference_area_[g]);
     }
+    if (settings.behaviour != GrainBehaviour::plastic) {
+        bonds_.emplace(
+            BondLaw{settings.bond_stiffness, settings.bond_damping,
+                    settings.behaviour == GrainBehaviour::brittle ? settings.bond_strength * diameter_
+                                                                  : std::numeric_limits<double>::infinity(),
+                    settings.bond_reach * diameter_},
+            x_, radius_, mass_, grain_);
+        contacts_.exclude(bonds_->pairs(), discs(), box_);
+    }
+    time_step_ = time_step();
     settle(packing.box);
-    potential_at_start_ = attraction_.energy(x_);
+    potential_at_start_ = inner_energy();
     x_start_ = x_;
 }
 
@@ -126,7 +141,7 @@ void BpmSolver::settle(const Box& box) {
         throw misfit(fmt::format("discs still overlap by {:.3g} of their diameter", penetration_));
 
     const double unit_speed = std::sqrt(maximum_force_ * diameter_ / mean_of(mass_));
-    const double keep = 1.0 - resting_damping * settings_.step;
+    const double keep = 1.0 - resting_damping * time_step_ * unit_speed / diameter_;
     for (int k = 0; k < most_resting_steps; ++k) {
         step(at_rest, time_step_);
         if (root_mean_square_speed() < resting_speed * unit_speed) break;
@@ -141,19 +156,57 @@ void BpmSolver::settle(const Box& box) {
 void BpmSolver::advance(const WallMotion& walls, double dt) {
     step(walls, dt);
     account(walls, dt);
+    note_convergence();
+    break_bonds();
+}
+
+void BpmSolver::break_bonds() {
+    if (!bonds_) return;
+    const double released = bonds_->break_bonds(x_);
+    if (released < 0.0) return;
+    energy_.plastic += released;
+    contacts_.exclude(bonds_->pairs(), discs(), box_);
+}
+
+void BpmSolver::note_convergence() {
+    ++steps_;
+    if (contact_result_.converged) return;
+    ++unconverged_steps_;
+    if (unconverged_steps_ < least_unconverged_steps ||
+        static_cast<double>(unconverged_steps_) < most_unconverged * static_cast<double>(steps_))
+        return;
+    throw DivergedError(-1, "contact forces", time_,
+                        fmt::format("{} of {} steps did not converge within {} sweeps; load more slowly, use "
+                                    "a smaller bpm.step or a larger bpm.max_iterations",
+                                    unconverged_steps_, steps_, settings_.max_iterations));
+}
+
+double BpmSolver::inner_energy() {
+    return bonds_ ? bonds_->energy(x_) : attraction_.energy(x_);
+}
+
+double BpmSolver::time_step() const {
+    if (!bonds_) return settings_.step * std::sqrt(governing_mass(mass_) * diameter_ / maximum_force_);
+    const double damping = settings_.bond_damping;
+    return bond_step * bonds_->stable_time_step(mass_) * (std::sqrt(1.0 + damping * damping) - damping);
 }
 
 void BpmSolver::step(const WallMotion& walls, double h) {
-    attraction_.forces(x_, time_, force_);
+    const double start = omp_get_wtime();
+    if (bonds_)
+        bonds_->forces(x_, v_, force_, threads_.parallel());
+    else
+        attraction_.forces(x_, time_, force_, true, threads_.parallel());
     v_before_ = v_;
     rim_speed_before_ = rim_speed_;
     for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
-    contact_result_ = contacts_.solve(discs(), walls, h);
+    contact_result_ = contacts_.solve(discs(), walls, h, threads_.parallel());
     watch(h);
     for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
     time_ += h;
     last_step_ = h;
     box_ = walls.after(h);
+    threads_.note(omp_get_wtime() - start);
 
     penetration_ = contact_result_.penetration / diameter_;
 
@@ -176,7 +229,7 @@ void BpmSolver::account(const WallMotion& walls, double h) {
             0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
     }
     double rubbed = 0.0;
-    if (friction_ > 0.0) {
+    if (rubs_) {
         const ContactRows& rows = contacts_.rows();
         for (std::size_t k = 0; k < rows.size(); ++k) {
             if (rows.tangential[k] == 0.0) continue;
@@ -188,6 +241,7 @@ void BpmSolver::account(const WallMotion& walls, double h) {
             rubbed -= 0.5 * slip * rows.tangential[k] * contacts_.reduced_mass(k, mass_);
         }
     }
+    if (bonds_) energy_.damping += h * bonds_->damping_power(x_, v_before_, v_);
     energy_.external_work += work;
     energy_.friction += rubbed;
     energy_.impact += work - given - rubbed;

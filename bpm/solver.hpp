@@ -5,17 +5,23 @@
 #include <vector>
 
 #include "bpm/attraction.hpp"
+#include "bpm/bonds.hpp"
 #include "bpm/disc_contacts.hpp"
 #include "bpm/disc_sizes.hpp"
 #include "bpm/grain_contacts.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
 #include "common/observables/affine_fit.hpp"
 #include "common/solver.hpp"
+#include "common/thread_choice.hpp"
 
 namespace softgrain::bpm {
 
+/// What holds the discs of a grain together: attraction (plastic), or bonds that stay or break.
+enum class GrainBehaviour { plastic, elastic, brittle };
+
 /// Values of the scenario table [bpm]; see bpm/method.cpp for units and defaults.
 struct BpmSettings {
+    GrainBehaviour behaviour;
     int discs_per_grain;
     std::optional<double> disc_diameter;  ///< [m], replaces discs_per_grain
     DiscSizes disc_sizes;
@@ -26,7 +32,18 @@ struct BpmSettings {
     double step;                 ///< time step / sqrt(m d / F0)
     int max_iterations;
     double over_relaxation;
-    double outline_rho;  ///< [mean disc diameters]
+    double outline_rho;     ///< [mean disc diameters]
+    double bond_stiffness;  ///< [N/m]
+    double bond_strength;   ///< largest tension / mean disc diameter [N/m]
+    double bond_damping;    ///< share of the critical damping
+    double bond_reach;      ///< [mean disc diameters]
+    double friction_within;
+    double rolling_resistance;
+
+    /// Stress that forces scale with: F0/<a0>, or the stiffness of the bonds [N/m].
+    double stress_scale() const {
+        return behaviour == GrainBehaviour::plastic ? attraction_stress : bond_stiffness;
+    }
 };
 
 /// Reads the table [bpm] of a scenario, defaults where there is none.
@@ -42,7 +59,7 @@ class BpmSolver final : public Solver {
     void advance(const WallMotion& walls, double dt) override;
     GrainView view(Need need) override;
     const std::array<Vec2, 4>& wall_force() const override { return wall_force_; }
-    double stress_scale() const override { return settings_.attraction_stress; }
+    double stress_scale() const override { return settings_.stress_scale(); }
     std::optional<std::string> outside_validity() const override;
     void check_finite() const override;
     void save(Checkpoint& to) const override;
@@ -54,6 +71,7 @@ class BpmSolver final : public Solver {
     double mean_disc_diameter() const { return diameter_; }
     double maximum_force() const { return maximum_force_; }
     const ContactResult& last_contact_result() const { return contact_result_; }
+    const Bonds* bonds() const { return bonds_ ? &*bonds_ : nullptr; }
     /// Largest overlap of two discs or of disc and wall before the last step [mean disc diameters].
     double penetration() const { return penetration_; }
 
@@ -70,6 +88,10 @@ class BpmSolver final : public Solver {
     Discs discs() { return {x_, radius_, mass_, grain_, v_, rim_speed_}; }
     std::size_t grains() const { return grain_start_.size() - 1; }
     void settle(const Box& box);
+    void break_bonds();
+    void note_convergence();
+    double inner_energy();
+    double time_step() const;
     void step(const WallMotion& walls, double h);
     void account(const WallMotion& walls, double h);
     void watch(double h) const;
@@ -83,14 +105,16 @@ class BpmSolver final : public Solver {
     AffineFit motion_of(std::size_t grain) const;
 
     BpmSettings settings_;
-    double friction_;
+    bool rubs_;                     ///< there is friction somewhere
     std::vector<int> grain_start_;  ///< [grains + 1] first disc of each grain
     std::vector<int> grain_;        ///< [discs]
     std::vector<Vec2> x_, v_, force_, v_before_;
     std::vector<double> radius_, mass_, rim_speed_, rim_speed_before_;
     double diameter_, maximum_force_, time_step_;
     Attraction attraction_;
+    std::optional<Bonds> bonds_;  ///< instead of the attraction
     ContactDynamics contacts_;
+    ThreadChoice threads_;
 
     double time_ = 0.0;
     Box box_;
@@ -99,6 +123,7 @@ class BpmSolver final : public Solver {
     EnergyLedger energy_;
     double potential_at_start_ = 0.0;
     ContactResult contact_result_;
+    long long steps_ = 0, unconverged_steps_ = 0;
     double penetration_ = 0.0;
 
     // What view() hands out.

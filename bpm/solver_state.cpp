@@ -31,18 +31,23 @@ void BpmSolver::save(Checkpoint& to) const {
     to.put("bpm.rim_speed", std::span<const double>(rim_speed_));
     to.put("bpm.box", std::span<const double>(box_.position));
     to.put("bpm.wall_force", std::span<const Vec2>(wall_force_));
-    const std::array<double, 9> scalars{time_,
-                                        last_step_,
-                                        potential_at_start_,
-                                        penetration_,
-                                        energy_.external_work,
-                                        energy_.friction,
-                                        energy_.impact,
-                                        static_cast<double>(contact_result_.iterations),
-                                        contact_result_.residual};
+    const std::array<double, 13> scalars{time_,
+                                         last_step_,
+                                         potential_at_start_,
+                                         penetration_,
+                                         energy_.external_work,
+                                         energy_.friction,
+                                         energy_.impact,
+                                         static_cast<double>(contact_result_.iterations),
+                                         contact_result_.residual,
+                                         energy_.damping,
+                                         energy_.plastic,
+                                         static_cast<double>(steps_),
+                                         static_cast<double>(unconverged_steps_)};
     to.put("bpm.scalars", std::span<const double>(scalars));
     to.put("bpm.converged", contact_result_.converged ? 1.0 : 0.0);
     attraction_.save(to, "bpm.attraction.");
+    if (bonds_) bonds_->save(to, "bpm.bonds.");
     contacts_.save(to, "bpm.contacts.");
 }
 
@@ -60,7 +65,7 @@ void BpmSolver::load(const Checkpoint& from) {
     const bool fits = radius.size() == radius_.size() && x.size() == x_.size() &&
                       x_start.size() == x_.size() && v.size() == v_.size() &&
                       rim_speed.size() == rim_speed_.size() && box.size() == 4 && wall_force.size() == 4 &&
-                      scalars.size() == 9 &&
+                      scalars.size() == 13 &&
                       std::equal(radius.begin(), radius.end(), radius_.begin(),
                                  [](double a, double b) { return std::abs(a - b) <= same_radius * b; });
     if (!fits)
@@ -82,7 +87,15 @@ void BpmSolver::load(const Checkpoint& from) {
     contact_result_ = {.iterations = static_cast<int>(scalars[7]),
                        .residual = scalars[8],
                        .converged = from.number("bpm.converged") != 0.0};
+    energy_.damping = scalars[9];
+    energy_.plastic = scalars[10];
+    steps_ = static_cast<long long>(scalars[11]);
+    unconverged_steps_ = static_cast<long long>(scalars[12]);
     attraction_.load(from, "bpm.attraction.");
+    if (bonds_) {
+        bonds_->load(from, "bpm.bonds.");
+        contacts_.exclude(bonds_->pairs(), discs(), box_);
+    }
     contacts_.load(from, "bpm.contacts.", discs());
 }
 

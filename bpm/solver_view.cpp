@@ -25,7 +25,7 @@ std::span<const double> components_of(const std::vector<Vec2>& vectors) {
 GrainView BpmSolver::view(Need need) {
     view_grains();
     energy_.kinetic = kinetic_energy();
-    energy_.elastic = attraction_.energy(x_) - potential_at_start_;
+    energy_.elastic = inner_energy() - potential_at_start_;
     GrainView view;
     view.time = time_;
     view.box = box_;

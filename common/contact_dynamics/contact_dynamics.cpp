@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/contact_dynamics/relaxation.hpp"
 #include "common/errors.hpp"
@@ -41,6 +42,11 @@ bool ContactDynamics::stale(const Discs& discs, const WallMotion& walls, double 
     return moved + std::max(moved, wall_moved) >= settings_.skin;
 }
 
+void ContactDynamics::exclude(std::span<const Pair> pairs, const Discs& discs, const Box& box) {
+    excluded_.assign(pairs.begin(), pairs.end());
+    if (!candidates_.built_at().empty()) rebuild(discs, box);
+}
+
 void ContactDynamics::rebuild(const Discs& discs, const Box& box) {
     candidates_.build(discs.x, discs.radius, settings_.skin);
     const ContactRows old_rows = std::move(rows_);
@@ -54,8 +60,11 @@ void ContactDynamics::rebuild(const Discs& discs, const Box& box) {
 void ContactDynamics::list_candidates(const Discs& discs, const Box& box) {
     built_box_ = box;
     blocks_ = ContactBlocks(discs, settings_.block_discs);
+    std::vector<Pair> pairs;
+    std::set_difference(candidates_.pairs().begin(), candidates_.pairs().end(), excluded_.begin(),
+                        excluded_.end(), std::back_inserter(pairs));
     rows_ =
-        make_contact_rows(candidates_.pairs(), discs, blocks_,
+        make_contact_rows(pairs, discs, blocks_,
                           {.tangential = settings_.within.friction > 0.0 || settings_.between.friction > 0.0,
                            .rolling = settings_.within.rolling > 0.0 || settings_.between.rolling > 0.0});
     wall_rows_ = make_wall_rows(discs, box, settings_.skin, blocks_);

@@ -44,6 +44,9 @@ class ContactDynamics {
     /// The number, radii, masses and groups of the discs must stay the same between calls.
     ContactResult solve(const Discs& discs, const WallMotion& walls, double h, bool threads = false);
 
+    /// Sorted pairs that never are in contact, from now on.
+    void exclude(std::span<const Pair> pairs, const Discs& discs, const Box& box);
+
     /// The contacts of the last solve; impulses are `normal` and `tangential` times the reduced mass.
     const ContactRows& rows() const { return rows_; }
     const WallRows& wall_rows() const { return wall_rows_; }
@@ -65,6 +68,7 @@ class ContactDynamics {
 
     ContactSettings settings_;
     NeighborList candidates_;
+    std::vector<Pair> excluded_;
     ContactBlocks blocks_;
     Box built_box_;
     ContactRows rows_;

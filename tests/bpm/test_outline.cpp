@@ -210,7 +210,7 @@ TEST(Outline, IsTheAlphaComplexWithFillets) {
 
 /// How much area the outline of a grain has beyond the complex: the crevices of its rim.
 TEST(Outline, CountsCrevicesThatTheAlphaComplexDoesNot) {
-    const Aggregate grain = prepare_aggregate({100, 1.625, 0.3, 2, 0}, 1.0);
+    const Aggregate grain = prepare_aggregate({.discs = 100, .seed = 2}, 1.0);
     double diameter = 0.0;
     for (double r : grain.radius) diameter += 2.0 * r / 100.0;
     const double rho = 0.3 * diameter;

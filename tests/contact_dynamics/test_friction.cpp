@@ -1,6 +1,8 @@
 // Closed forms of one frictional contact. A heavy disc of its own group plays the floor.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/contact_dynamics/contact_dynamics.hpp"
 #include "disc_cloud.hpp"
 
@@ -52,6 +54,75 @@ TEST(Friction, DiscsOfOneGroupDoNotRub) {
     contacts.solve(cloud.discs(), far_walls, 0.01);
     EXPECT_NEAR(cloud.v[1].x(), 0.6, 1e-9);
     EXPECT_EQ(cloud.rim_speed[1], 0.0);
+}
+
+ContactSettings rolling(double friction, double resistance) {
+    ContactSettings settings = rubbing(friction);
+    settings.between.rolling = resistance;
+    return settings;
+}
+
+TEST(Rolling, ResistanceSlowsARollingDiscByItsLargestTorque) {
+    // A rolling disc with friction enough to keep rolling: the torque C = mu_r (r_i + r_j) N slows it down;
+    // v' = v - (2/3) C / (m r) with r_i + r_j the sum of the radii.
+    DiscCloud cloud = disc_on_floor({0.6, -1.0}, -0.6);
+    const double reach = 1e4 + 0.5, resistance = 1e-5, normal = 1.0;
+    ContactDynamics contacts(rolling(0.9, resistance));
+    contacts.solve(cloud.discs(), far_walls, 0.01);
+    const double speed = 0.6 - 2.0 / 3.0 * resistance * reach * normal / 0.5;
+    EXPECT_NEAR(cloud.v[1].x(), speed, 1e-9);
+    EXPECT_NEAR(cloud.rim_speed[1], -speed, 1e-9);
+}
+
+TEST(Rolling, EnoughResistanceMakesFrictionStopADisc) {
+    // Neither sliding nor rolling is left: the whole momentum goes into the floor.
+    DiscCloud cloud = disc_on_floor({0.6, -1.0}, 0.0);
+    ContactDynamics contacts(rolling(0.9, 1.0));
+    contacts.solve(cloud.discs(), far_walls, 0.01);
+    EXPECT_NEAR(cloud.v[1].x(), 0.0, 1e-9);
+    EXPECT_NEAR(cloud.rim_speed[1], 0.0, 1e-9);
+}
+
+TEST(Rolling, WithinAGroupSpinsAreSharedAndKept) {
+    // Two equal discs pressed together without friction: rolling resistance brings them to the same spin and
+    // keeps the sum of the angular momenta.
+    DiscCloud cloud{{{0, 0}, {1, 0}}, {{1, 0}, {-1, 0}}, {0.5, 0.5}, {1, 1}, {0.8, -0.2}, {0, 0}};
+    ContactSettings settings = rubbing(0.0);
+    settings.within.rolling = 10.0;
+    ContactDynamics contacts(settings);
+    contacts.solve(cloud.discs(), far_walls, 0.01);
+    EXPECT_NEAR(cloud.rim_speed[0], 0.3, 1e-9);
+    EXPECT_NEAR(cloud.rim_speed[1], 0.3, 1e-9);
+}
+
+TEST(Rolling, LawHoldsInACloud) {
+    DiscCloud cloud = disc_cloud(9, 8, 8, 8);
+    for (std::size_t d = 0; d < cloud.size(); ++d) {
+        cloud.group[d] = static_cast<int>(d);
+        cloud.rim_speed[d] = 0.3 * std::sin(3.0 * static_cast<double>(d));
+    }
+    const double resistance = 0.2;
+    ContactDynamics contacts(rolling(0.3, resistance));
+    ASSERT_TRUE(contacts.solve(cloud.discs(), far_walls, 0.1).converged);
+    const ContactRows& rows = contacts.rows();
+    int locked = 0, turning = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto i = static_cast<std::size_t>(rows.i[k]);
+        const auto j = static_cast<std::size_t>(rows.j[k]);
+        const double spin = cloud.rim_speed[j] / cloud.radius[j] - cloud.rim_speed[i] / cloud.radius[i];
+        const double limit = resistance * (cloud.radius[i] + cloud.radius[j]) * rows.normal[k];
+        EXPECT_LE(std::abs(rows.rolling[k]), limit + 1e-12);
+        if (rows.normal[k] < 1e-6) continue;
+        if (std::abs(rows.rolling[k]) < limit - 1e-9) {
+            EXPECT_NEAR(spin, 0.0, 1e-9);
+            ++locked;
+        } else {
+            EXPECT_LT(spin * rows.rolling[k], 1e-12);  // against the relative spin
+            ++turning;
+        }
+    }
+    EXPECT_GT(locked, 5);
+    EXPECT_GT(turning, 5);
 }
 
 TEST(Friction, CoulombLawHoldsInACloud) {
