@@ -96,7 +96,8 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
                  .largest_push = largest_push * diameter_}),
       threads_(x_.size() >= discs_worth_threads ? omp_get_max_threads() : 1),
       box_(packing.box),
-      reference_area_(std::move(assembly.reference_area)) {
+      reference_area_(std::move(assembly.reference_area)),
+      internal_packing_fraction_(std::move(assembly.internal_packing_fraction)) {
     for (std::size_t g = 0; g < grains(); ++g) {
         const int count = grain_start_[g + 1] - grain_start_[g];
         grain_.insert(grain_.end(), at(count), static_cast<int>(g));
