@@ -130,7 +130,7 @@ TEST(Outline, EqualsClosingOnAGrid) {
 }
 
 TEST(Outline, PolygonEnclosesEveryDiscOfAGrain) {
-    const Aggregate grain = prepare_aggregate({.discs = 80, .seed = 2}, 1.0);
+    const Aggregate grain = prepare_aggregate({.discs = 80, .seed = 2});
     double diameter = 0.0;
     for (double r : grain.radius) diameter += 2.0 * r / 80.0;
     const Outline outline(grain.x, grain.radius, 0.3 * diameter, all_pairs(80));
