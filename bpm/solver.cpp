@@ -61,6 +61,7 @@ BpmSolver::Assembly BpmSolver::assemble(const Scenario& scenario, const Packing&
                                square_sum);
         }
         all.reference_area.push_back(area);
+        all.internal_packing_fraction.push_back(grain.internal_packing_fraction);
         all.grain_start.push_back(static_cast<int>(all.x.size()));
     }
     return all;

@@ -79,7 +79,7 @@ class BpmSolver final : public Solver {
     struct Assembly {
         std::vector<int> grain_start;
         std::vector<Vec2> x;
-        std::vector<double> radius, mass, reference_area;
+        std::vector<double> radius, mass, reference_area, internal_packing_fraction;
     };
     static Assembly assemble(const Scenario& scenario, const Packing& packing, const BpmSettings& settings);
     BpmSolver(const Scenario& scenario, const Packing& packing, const BpmSettings& settings,
