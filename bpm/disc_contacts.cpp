@@ -31,7 +31,7 @@ DiscContacts list_disc_contacts(const ContactDynamics& solved, const GrainContac
         meet(rows.i[k], force);
         meet(rows.j[k], force);
         if (force != 0.0)
-            result.contacts.push_back({rows.i[k], rows.j[k], force, -scale * rows.tangential[k]});
+            result.contacts.push_back({rows.i[k], rows.j[k], force, -scale * rows.tangential_of(k)});
     }
     const WallRows& walls = solved.wall_rows();
     for (std::size_t k = 0; k < walls.size(); ++k) {
