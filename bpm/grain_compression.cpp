@@ -116,7 +116,8 @@ CompressionCurve compress_grain(const Scenario& scenario, double radius, std::ui
         solver.advance(walls, h);
         box = walls.after(h);
         if (const auto reason = solver.outside_validity())
-            throw DivergedError(0, "compression of a single grain", 0.0, *reason);
+            throw DivergedError(-1, "grain between two walls", solver.view(Need::base).time,
+                                fmt::format("prepared from seed {}: {}", seed, *reason));
         const double force = 0.5 * (solver.wall_force()[3].y() - solver.wall_force()[2].y());
         measured.add(1.0 - box.height() / height, force, force / extent(solver, 0).length());
     }

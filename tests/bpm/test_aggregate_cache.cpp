@@ -208,9 +208,9 @@ TEST_F(AggregateCacheTest, FolderFollowsTheEnvironment) {
 
 TEST_F(AggregateCacheTest, APackingIsPreparedOnceAndAlwaysTheSame) {
     const Variable own("SOFTGRAIN_CACHE");
-    const Scenario scenario = scenario_of(200);
+    const Scenario scenario = scenario_of(100);
     const BpmSettings settings = settings_of(scenario);
-    Packing packing = square_packing(5, 2, 0.1);
+    Packing packing = square_packing(7, 3, 0.1);
     packing.radius[3] = 1.2;
     own.set("off");
     const std::vector<Aggregate> without = prepare_grains(scenario, packing, settings);

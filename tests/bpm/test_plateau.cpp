@@ -37,9 +37,10 @@ double plateau(std::uint64_t seed) {
 TEST(Plateau, SingleGrainYieldsNearTheKnownStress) {
     double mean = 0.0;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) mean += plateau(seed) / 3.0;
-    // 0.163 to 0.189 over seeds, sizes and rates in an independent prototype; here single seeds scatter by
-    // 0.03.
-    EXPECT_NEAR(mean, 0.18, 0.03);
+    // 0.163 to 0.189 over seeds, sizes and rates in an independent prototype. At this wall speed 0.204 +-
+    // 0.006 (standard error of 8 seeds), a tenth above the slow limit; the mean of three seeds scatters by
+    // 0.010.
+    EXPECT_NEAR(mean, 0.20, 0.03);
 }
 
 }  // namespace
