@@ -14,11 +14,9 @@
 namespace softgrain::bpm {
 namespace {
 
-// Makes the slop of Box2D 5e-5 diameters, and its largest displacement in a step 0.02.
-constexpr double units_per_diameter = 100.0;
-// Coordinates are rounded to 0.002 units here, 2e-5 diameters: less than the slop.
+// Here coordinates are rounded to 0.002 units: less than the slop.
 constexpr double largest_coordinate = 32768.0;
-constexpr float wall_half_thickness = 200.0F;
+constexpr double wall_half_thickness = 2.0;  // [mean disc diameters]
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
@@ -76,15 +74,15 @@ struct Box2dContacts::World {
 Box2dContacts::Box2dContacts(const Box2dSettings& settings, const Discs& discs, const Box& box)
     : settings_(settings),
       origin_(0.5 * (box.position[0] + box.position[1]), 0.5 * (box.position[2] + box.position[3])),
-      length_(settings.diameter / units_per_diameter),
+      length_(settings.diameter / settings.units),
       speed_(length_ / settings.time),
       world_(std::make_unique<World>(discs)) {
     const double extent = std::max(box.width(), box.height()) / length_;
     if (0.5 * extent > largest_coordinate)
-        throw InputError(
-            fmt::format("bpm: the box is {:.0f} disc diameters wide, too many for the single precision of "
-                        "engine = \"box2d\" (at most {:.0f}); use fewer grains or engine = \"nscd\"",
-                        extent / units_per_diameter, 2.0 * largest_coordinate / units_per_diameter));
+        throw InputError(fmt::format(
+            "bpm: the box is {:.0f} disc diameters wide, too many for the single precision of "
+            "engine = \"box2d\" (at most {:.0f}); use fewer grains, a larger bpm.step, or engine = \"nscd\"",
+            extent / settings.units, 2.0 * largest_coordinate / settings.units));
     b2FixtureDef fixture;
     fixture.restitution = 0.0F;
     fixture.friction = single(settings.friction);
@@ -101,9 +99,10 @@ Box2dContacts::Box2dContacts(const Box2dSettings& settings, const Discs& discs, 
     fixture.density = 0.0F;
     for (int w = 0; w < 4; ++w) {
         const float half_length = single(2.0 * extent);
+        const float half_thickness = single(wall_half_thickness * settings.units);
         b2PolygonShape plate;
-        plate.SetAsBox(wall_axis(w) == 0 ? wall_half_thickness : half_length,
-                       wall_axis(w) == 0 ? half_length : wall_half_thickness);
+        plate.SetAsBox(wall_axis(w) == 0 ? half_thickness : half_length,
+                       wall_axis(w) == 0 ? half_length : half_thickness);
         fixture.shape = &plate;
         world_->wall[at(w)] = world_->add(b2_kinematicBody, {0.0F, 0.0F}, discs.x.size() + at(w));
         world_->wall[at(w)]->CreateFixture(&fixture);
@@ -123,7 +122,7 @@ void Box2dContacts::place_walls(const WallMotion& walls) {
     for (int w = 0; w < 4; ++w) {
         const int axis = wall_axis(w);
         const double surface = (walls.box.position[at(w)] - origin_[axis]) / length_;
-        const double back = static_cast<double>(wall_half_thickness + b2_polygonRadius);
+        const double back = wall_half_thickness * settings_.units + static_cast<double>(b2_polygonRadius);
         Vec2 middle = Vec2::Zero();
         middle[axis] = surface - wall_sign(w) * back;
         const Vec2 v = walls.velocity_of(w) / speed_;

@@ -14,7 +14,8 @@ struct Box2dSettings {
     int velocity_iterations = 8;
     int position_iterations = 3;
     double friction = 0.0;  ///< between discs of different groups
-    double diameter = 1.0;  ///< mean disc diameter, 100 units of Box2D [m]
+    double units = 100.0;   ///< of Box2D per mean disc diameter; its slop is 0.005, its largest move 2
+    double diameter = 1.0;  ///< mean disc diameter [m]
     double mass = 1.0;      ///< unit of mass, near that of a disc [kg]
     double time = 1.0;      ///< unit of time, sqrt(m d / F0) [s]
 };

@@ -18,7 +18,7 @@ constexpr double attraction_stress_per_modulus = 0.28;
 constexpr int default_discs_per_grain = 100;
 constexpr double default_step = 0.07;
 // Box2D's error follows the step, not its iterations.
-constexpr double default_box2d_step = 0.02;
+constexpr double default_box2d_step = 0.01;
 constexpr int default_velocity_iterations = 8, default_position_iterations = 3;
 
 DiscSizeLaw law_named(const std::string& name) {
@@ -115,7 +115,7 @@ std::span<const KeySpec> keys() {
          KeyType::number,
          std::monostate{},
          "sqrt(m d / F0)",
-         "time step; 0.07 if not given, 0.02 for engine = \"box2d\"",
+         "time step; 0.07 if not given, 0.01 for engine = \"box2d\"",
          {0.0, 0.2, true}},
         {"box2d_velocity_iterations",
          KeyType::integer,

@@ -30,6 +30,8 @@ constexpr std::size_t discs_worth_threads = 1000;
 constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
 constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
 constexpr double most_unconverged = 0.05;
+// 1 / step units of Box2D in a diameter: discs may reach 2 sqrt(F0 d/m), the slop is 0.005 step.
+constexpr double most_box2d_units = 400.0;
 constexpr double invalid_overlap = 0.05;  // that Box2D leaves [mean disc diameters]
 constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
 
@@ -120,6 +122,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
         box2d_.emplace(Box2dSettings{.velocity_iterations = settings.velocity_iterations,
                                      .position_iterations = settings.position_iterations,
                                      .friction = scenario.material.friction,
+                                     .units = std::min(most_box2d_units, 1.0 / settings.step),
                                      .diameter = diameter_,
                                      .mass = mean_of(mass_),
                                      .time = time_step(1.0)},
@@ -248,9 +251,13 @@ void BpmSolver::account(const WallMotion& walls, double h) {
         given +=
             0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
     }
-    // Box2D also moves discs against their attraction.
-    if (box2d_)
-        for (std::size_t d = 0; d < x_.size(); ++d) given -= force_[d].dot(x_[d] - x_before_[d] - h * v_[d]);
+    if (box2d_) {
+        double corrections = 0.0;
+        for (std::size_t d = 0; d < x_.size(); ++d)
+            corrections -= force_[d].dot(x_[d] - x_before_[d] - h * v_[d]);
+        correction_energy_ += corrections;
+        given += corrections;
+    }
     double rubbed = 0.0;
     if (rubs_) {
         const SolvedContacts solved = solved_contacts();

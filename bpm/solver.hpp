@@ -81,6 +81,8 @@ class BpmSolver final : public Solver {
     const Bonds* bonds() const { return bonds_ ? &*bonds_ : nullptr; }
     /// Largest overlap of two discs or of disc and wall before the last step [mean disc diameters].
     double penetration() const { return penetration_; }
+    /// What Box2D gave the discs by moving them apart, against their attraction [J].
+    double correction_energy() const { return correction_energy_; }
 
   private:
     struct Assembly {
@@ -131,6 +133,7 @@ class BpmSolver final : public Solver {
     double last_step_ = 0.0;
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     EnergyLedger energy_;
+    double correction_energy_ = 0.0;
     double potential_at_start_ = 0.0;
     ContactResult contact_result_;
     long long steps_ = 0, unconverged_steps_ = 0;
