@@ -12,7 +12,7 @@ std::size_t at(int k) {
 
 }  // namespace
 
-DiscContacts list_disc_contacts(const ContactDynamics& solved, const GrainContactInput& in) {
+DiscContacts list_disc_contacts(const SolvedContacts& solved, const GrainContactInput& in) {
     DiscContacts result;
     result.touching.assign(in.discs.x.size(), 0.0);
     result.force.assign(in.discs.x.size(), 0.0);
@@ -20,7 +20,7 @@ DiscContacts list_disc_contacts(const ContactDynamics& solved, const GrainContac
         result.touching[at(disc)] += 1.0;
         result.force[at(disc)] += std::abs(normal_force);
     };
-    const ContactRows& rows = solved.rows();
+    const ContactRows& rows = solved.rows;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::size_t i = at(rows.i[k]);
         const std::size_t j = at(rows.j[k]);
@@ -33,7 +33,7 @@ DiscContacts list_disc_contacts(const ContactDynamics& solved, const GrainContac
         if (force != 0.0)
             result.contacts.push_back({rows.i[k], rows.j[k], force, -scale * rows.tangential_of(k)});
     }
-    const WallRows& walls = solved.wall_rows();
+    const WallRows& walls = solved.wall_rows;
     for (std::size_t k = 0; k < walls.size(); ++k) {
         const std::size_t d = at(walls.disc[k]);
         const double gap = in.box.distance(walls.wall[k], in.discs.x[d]) - in.discs.radius[d];

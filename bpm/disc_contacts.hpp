@@ -14,6 +14,6 @@ struct DiscContacts {
 
 /// A contact is a pair that exchanged an impulse in the last step; discs also touch if their gap is below
 /// touch_gap.
-DiscContacts list_disc_contacts(const ContactDynamics& solved, const GrainContactInput& input);
+DiscContacts list_disc_contacts(const SolvedContacts& solved, const GrainContactInput& input);
 
 }  // namespace softgrain::bpm

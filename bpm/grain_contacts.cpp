@@ -19,9 +19,9 @@ std::size_t at(int k) {
     return static_cast<std::size_t>(k);
 }
 
-void append_disc_touches(const ContactDynamics& solved, const GrainContactInput& in,
+void append_disc_touches(const SolvedContacts& solved, const GrainContactInput& in,
                          std::vector<Touch>& touches) {
-    const ContactRows& rows = solved.rows();
+    const ContactRows& rows = solved.rows;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::size_t i = at(rows.i[k]);
         const std::size_t j = at(rows.j[k]);
@@ -48,9 +48,9 @@ void append_disc_touches(const ContactDynamics& solved, const GrainContactInput&
     }
 }
 
-void append_wall_touches(const ContactDynamics& solved, const GrainContactInput& in,
+void append_wall_touches(const SolvedContacts& solved, const GrainContactInput& in,
                          std::vector<Touch>& touches) {
-    const WallRows& rows = solved.wall_rows();
+    const WallRows& rows = solved.wall_rows;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::size_t d = at(rows.disc[k]);
         const double gap = in.box.distance(rows.wall[k], in.discs.x[d]) - in.discs.radius[d];
@@ -95,7 +95,7 @@ GrainContact sum_of(std::span<const Touch> touches, const GrainContactInput& in)
 
 }  // namespace
 
-GrainContacts sum_grain_contacts(const ContactDynamics& solved, const GrainContactInput& in) {
+GrainContacts sum_grain_contacts(const SolvedContacts& solved, const GrainContactInput& in) {
     std::vector<Touch> touches;
     append_disc_touches(solved, in, touches);
     append_wall_touches(solved, in, touches);

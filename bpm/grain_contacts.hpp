@@ -3,8 +3,9 @@
 #include <span>
 #include <vector>
 
+#include "bpm/solved_contacts.hpp"
 #include "common/box.hpp"
-#include "common/contact_dynamics/contact_dynamics.hpp"
+#include "common/contact_dynamics/discs.hpp"
 #include "common/grain_view.hpp"
 
 namespace softgrain::bpm {
@@ -27,6 +28,6 @@ struct GrainContactInput {
 /// Two grains touch if the gap of any two of their discs is below touch_gap, or if they exchanged an impulse
 /// in the last step. The force is the sum of the impulses / h, the point their weighted mean, the length the
 /// extent of the touching discs along the contact. Stress: Love-Weber sum over these outer contacts.
-GrainContacts sum_grain_contacts(const ContactDynamics& solved, const GrainContactInput& input);
+GrainContacts sum_grain_contacts(const SolvedContacts& solved, const GrainContactInput& input);
 
 }  // namespace softgrain::bpm

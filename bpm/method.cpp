@@ -1,5 +1,7 @@
 #include "bpm/method.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 
@@ -14,6 +16,10 @@ namespace {
 constexpr double attraction_stress_per_modulus = 0.28;
 
 constexpr int default_discs_per_grain = 100;
+constexpr double default_step = 0.07;
+// Box2D's error follows the step, not its iterations.
+constexpr double default_box2d_step = 0.01;
+constexpr int default_velocity_iterations = 8, default_position_iterations = 3;
 
 DiscSizeLaw law_named(const std::string& name) {
     if (name == "uniform") return DiscSizeLaw::uniform;
@@ -27,8 +33,32 @@ GrainBehaviour behaviour_named(const std::string& name) {
     return GrainBehaviour::plastic;
 }
 
+/// What Box2D does not have, and what only Box2D has, is refused.
+void check_engine(const Settings& settings, Engine engine, GrainBehaviour behaviour) {
+    if (engine == Engine::nscd) {
+        for (const char* key : {"box2d_velocity_iterations", "box2d_position_iterations"})
+            if (settings.has(key))
+                throw InputError(fmt::format("[bpm] {} is for engine = \"box2d\"; leave it out", key));
+        return;
+    }
+    constexpr const char* cure = "; leave it out, or use engine = \"nscd\"";
+    if (behaviour != GrainBehaviour::plastic)
+        throw InputError(fmt::format("[bpm] engine = \"box2d\" has no bonds, as grain = \"{}\" needs{}",
+                                     settings.text("grain"), cure));
+    for (const char* key : {"rolling_resistance", "friction_within"})
+        if (settings.number(key) > 0.0)
+            throw InputError(fmt::format("[bpm] engine = \"box2d\" has no {}{}", key, cure));
+}
+
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 19> table{{
+    static const std::array<KeySpec, 22> table{{
+        {"engine",
+         KeyType::text,
+         std::string("nscd"),
+         "",
+         "what solves the contacts of the discs: contact dynamics (nscd) or Box2D (plastic grains only)",
+         any_number,
+         {"nscd", "box2d"}},
         {"grain",
          KeyType::text,
          std::string("plastic"),
@@ -81,7 +111,24 @@ std::span<const KeySpec> keys() {
          "disc diameters",
          "contact solver stops when a sweep changes no gap by more",
          {1e-9, 1e-2}},
-        {"step", KeyType::number, 0.07, "sqrt(m d / F0)", "time step", {0.0, 0.2, true}},
+        {"step",
+         KeyType::number,
+         std::monostate{},
+         "sqrt(m d / F0)",
+         "time step; 0.07 if not given, 0.01 for engine = \"box2d\"",
+         {0.0, 0.2, true}},
+        {"box2d_velocity_iterations",
+         KeyType::integer,
+         std::monostate{},
+         "",
+         "for engine = \"box2d\", 8 if not given",
+         {1.0, 1e4}},
+        {"box2d_position_iterations",
+         KeyType::integer,
+         std::monostate{},
+         "",
+         "for engine = \"box2d\", 3 if not given",
+         {1.0, 1e4}},
         {"max_iterations",
          KeyType::integer,
          std::int64_t{1000},
@@ -149,7 +196,14 @@ BpmSettings settings_of(const Scenario& scenario) {
         throw InputError(behaviour == GrainBehaviour::brittle
                              ? "[bpm] grain = \"brittle\" needs bond_strength"
                              : "[bpm] bond_strength is for grain = \"brittle\"; leave it out");
-    return {.behaviour = behaviour,
+    const Engine engine = settings.text("engine") == "box2d" ? Engine::box2d : Engine::nscd;
+    check_engine(settings, engine, behaviour);
+    const double step = optional("step").value_or(engine == Engine::nscd ? default_step : default_box2d_step);
+    const auto count = [&](std::string_view key, int otherwise) {
+        return settings.has(key) ? static_cast<int>(settings.integer(key)) : otherwise;
+    };
+    return {.engine = engine,
+            .behaviour = behaviour,
             .discs_per_grain = settings.has("discs_per_grain")
                                    ? static_cast<int>(settings.integer("discs_per_grain"))
                                    : default_discs_per_grain,
@@ -161,7 +215,9 @@ BpmSettings settings_of(const Scenario& scenario) {
             .attraction_exponent = settings.number("attraction_exponent"),
             .attraction_range = settings.number("attraction_range"),
             .tolerance = settings.number("tolerance"),
-            .step = settings.number("step"),
+            .step = step,
+            // With any engine the grains are placed by contact dynamics.
+            .placing_step = engine == Engine::nscd ? step : default_step,
             .max_iterations = static_cast<int>(settings.integer("max_iterations")),
             .over_relaxation = settings.number("over_relaxation"),
             .outline_rho = settings.number("outline_rho"),
@@ -170,7 +226,9 @@ BpmSettings settings_of(const Scenario& scenario) {
             .bond_damping = settings.number("bond_damping"),
             .bond_reach = settings.number("bond_reach"),
             .friction_within = settings.number("friction_within"),
-            .rolling_resistance = settings.number("rolling_resistance")};
+            .rolling_resistance = settings.number("rolling_resistance"),
+            .velocity_iterations = count("box2d_velocity_iterations", default_velocity_iterations),
+            .position_iterations = count("box2d_position_iterations", default_position_iterations)};
 }
 
 const Method& method() {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -29,6 +30,9 @@ constexpr std::size_t discs_worth_threads = 1000;
 constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
 constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
 constexpr double most_unconverged = 0.05;
+// 1 / step units of Box2D in a diameter: discs may reach 2 sqrt(F0 d/m), the slop is 0.005 step.
+constexpr double most_box2d_units = 400.0;
+constexpr double invalid_overlap = 0.05;  // that Box2D leaves [mean disc diameters]
 constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
 
 std::size_t at(int k) {
@@ -114,13 +118,22 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
             x_, radius_, mass_, grain_);
         contacts_.exclude(bonds_->pairs(), discs(), box_);
     }
-    time_step_ = time_step();
-    settle(packing.box);
+    time_step_ = time_step(settings.step);
+    settle(packing.box, time_step(settings.placing_step));
+    if (settings.engine == Engine::box2d)
+        box2d_.emplace(Box2dSettings{.velocity_iterations = settings.velocity_iterations,
+                                     .position_iterations = settings.position_iterations,
+                                     .friction = scenario.material.friction,
+                                     .units = std::min(most_box2d_units, 1.0 / settings.step),
+                                     .diameter = diameter_,
+                                     .mass = mean_of(mass_),
+                                     .time = time_step(1.0)},
+                       discs(), box_);
     potential_at_start_ = inner_energy();
     x_start_ = x_;
 }
 
-void BpmSolver::settle(const Box& box) {
+void BpmSolver::settle(const Box& box, double h) {
     const WallMotion at_rest{box, {}};
     const auto come_to_rest = [&] {
         std::fill(v_.begin(), v_.end(), Vec2::Zero());
@@ -133,7 +146,7 @@ void BpmSolver::settle(const Box& box) {
     try {
         int placing = 0;
         do {
-            step(at_rest, time_step_);
+            step(at_rest, h);
             come_to_rest();
         } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
     } catch (const DivergedError& error) {
@@ -143,9 +156,9 @@ void BpmSolver::settle(const Box& box) {
         throw misfit(fmt::format("discs still overlap by {:.3g} of their diameter", penetration_));
 
     const double unit_speed = std::sqrt(maximum_force_ * diameter_ / mean_of(mass_));
-    const double keep = 1.0 - resting_damping * time_step_ * unit_speed / diameter_;
+    const double keep = 1.0 - resting_damping * h * unit_speed / diameter_;
     for (int k = 0; k < most_resting_steps; ++k) {
-        step(at_rest, time_step_);
+        step(at_rest, h);
         if (root_mean_square_speed() < resting_speed * unit_speed) break;
         for (Vec2& v : v_) v *= keep;
         for (double& w : rim_speed_) w *= keep;
@@ -187,8 +200,12 @@ double BpmSolver::inner_energy() {
     return bonds_ ? bonds_->energy(x_) : attraction_.energy(x_);
 }
 
-double BpmSolver::time_step() const {
-    if (!bonds_) return settings_.step * std::sqrt(governing_mass(mass_) * diameter_ / maximum_force_);
+SolvedContacts BpmSolver::solved_contacts() const {
+    return box2d_ ? box2d_->contacts() : SolvedContacts{contacts_.rows(), contacts_.wall_rows()};
+}
+
+double BpmSolver::time_step(double step) const {
+    if (!bonds_) return step * std::sqrt(governing_mass(mass_) * diameter_ / maximum_force_);
     const double damping = settings_.bond_damping;
     return bond_step * bonds_->stable_time_step(mass_) * (std::sqrt(1.0 + damping * damping) - damping);
 }
@@ -202,9 +219,15 @@ void BpmSolver::step(const WallMotion& walls, double h) {
     v_before_ = v_;
     rim_speed_before_ = rim_speed_;
     for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
-    contact_result_ = contacts_.solve(discs(), walls, h, threads_.parallel());
-    watch(h);
-    for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
+    if (box2d_) {
+        x_before_ = x_;
+        contact_result_ = box2d_->solve(discs(), walls, h, x_);
+        watch(h, box2d_->largest_move());
+    } else {
+        contact_result_ = contacts_.solve(discs(), walls, h, threads_.parallel());
+        watch(h, diameter_);
+        for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
+    }
     time_ += h;
     last_step_ = h;
     box_ = walls.after(h);
@@ -213,7 +236,7 @@ void BpmSolver::step(const WallMotion& walls, double h) {
     penetration_ = contact_result_.penetration / diameter_;
 
     wall_force_.fill(Vec2::Zero());
-    const WallRows& rows = contacts_.wall_rows();
+    const WallRows& rows = solved_contacts().wall_rows;
     for (std::size_t k = 0; k < rows.size(); ++k)
         wall_force_[at(rows.wall[k])] -=
             mass_[at(rows.disc[k])] * rows.normal[k] / h * wall_normal(rows.wall[k]);
@@ -230,9 +253,17 @@ void BpmSolver::account(const WallMotion& walls, double h) {
         given +=
             0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
     }
+    if (box2d_) {
+        double corrections = 0.0;
+        for (std::size_t d = 0; d < x_.size(); ++d)
+            corrections -= force_[d].dot(x_[d] - x_before_[d] - h * v_[d]);
+        correction_energy_ += corrections;
+        given += corrections;
+    }
     double rubbed = 0.0;
     if (rubs_) {
-        const ContactRows& rows = contacts_.rows();
+        const SolvedContacts solved = solved_contacts();
+        const ContactRows& rows = solved.rows;
         for (std::size_t k = 0; k < rows.size(); ++k) {
             if (rows.tangential[k] == 0.0) continue;
             const std::size_t i = at(rows.i[k]);
@@ -240,7 +271,7 @@ void BpmSolver::account(const WallMotion& walls, double h) {
             const Vec2 t = perpendicular(rows.direction[k]);
             const double slip = t.dot(v_[j] + v_before_[j] - v_[i] - v_before_[i]) - rim_speed_[i] -
                                 rim_speed_before_[i] - rim_speed_[j] - rim_speed_before_[j];
-            rubbed -= 0.5 * slip * rows.tangential[k] * contacts_.reduced_mass(k, mass_);
+            rubbed -= 0.5 * slip * rows.tangential[k] * solved.reduced_mass(k, mass_);
         }
     }
     if (bonds_) energy_.damping += h * bonds_->damping_power(x_, v_before_, v_);
@@ -249,10 +280,10 @@ void BpmSolver::account(const WallMotion& walls, double h) {
     energy_.impact += work - given - rubbed;
 }
 
-void BpmSolver::watch(double h) const {
+void BpmSolver::watch(double h, double largest_move) const {
     for (std::size_t d = 0; d < v_.size(); ++d) {
         const double moved = h * v_[d].norm();
-        if (moved <= diameter_) continue;
+        if (moved <= largest_move) continue;
         throw DivergedError(
             grain_[d], "disc velocity", time_,
             std::isfinite(moved)
@@ -264,6 +295,11 @@ void BpmSolver::watch(double h) const {
 }
 
 std::optional<std::string> BpmSolver::outside_validity() const {
+    if (box2d_ && penetration_ > invalid_overlap)
+        return fmt::format(
+            "the rigid discs are jammed solid: Box2D leaves an overlap of {:.3g} disc diameters; the grains "
+            "cannot be compacted further",
+            penetration_);
     const double residual = contact_result_.residual / diameter_;
     if (contact_result_.converged || residual <= invalid_residual * settings_.tolerance) return std::nullopt;
     return fmt::format(

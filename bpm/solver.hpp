@@ -6,6 +6,7 @@
 
 #include "bpm/attraction.hpp"
 #include "bpm/bonds.hpp"
+#include "bpm/box2d_contacts.hpp"
 #include "bpm/disc_contacts.hpp"
 #include "bpm/disc_sizes.hpp"
 #include "bpm/grain_contacts.hpp"
@@ -19,8 +20,12 @@ namespace softgrain::bpm {
 /// What holds the discs of a grain together: attraction (plastic), or bonds that stay or break.
 enum class GrainBehaviour { plastic, elastic, brittle };
 
+/// What solves the contacts: ContactDynamics, or Box2D.
+enum class Engine { nscd, box2d };
+
 /// Values of the scenario table [bpm]; see bpm/method.cpp for units and defaults.
 struct BpmSettings {
+    Engine engine;
     GrainBehaviour behaviour;
     int discs_per_grain;
     std::optional<double> disc_diameter;  ///< [m], replaces discs_per_grain
@@ -30,6 +35,7 @@ struct BpmSettings {
     double attraction_range;     ///< largest gap [a0]
     double tolerance;            ///< [mean disc diameters]
     double step;                 ///< time step / sqrt(m d / F0)
+    double placing_step;         ///< the same while the grains are placed
     int max_iterations;
     double over_relaxation;
     double outline_rho;     ///< [mean disc diameters]
@@ -39,6 +45,7 @@ struct BpmSettings {
     double bond_reach;      ///< [mean disc diameters]
     double friction_within;
     double rolling_resistance;
+    int velocity_iterations, position_iterations;  ///< of Box2D
 
     /// Stress that forces scale with: F0/<a0>, or the stiffness of the bonds [N/m].
     double stress_scale() const {
@@ -74,6 +81,8 @@ class BpmSolver final : public Solver {
     const Bonds* bonds() const { return bonds_ ? &*bonds_ : nullptr; }
     /// Largest overlap of two discs or of disc and wall before the last step [mean disc diameters].
     double penetration() const { return penetration_; }
+    /// What Box2D gave the discs by moving them apart, against their attraction [J].
+    double correction_energy() const { return correction_energy_; }
 
   private:
     struct Assembly {
@@ -87,14 +96,15 @@ class BpmSolver final : public Solver {
 
     Discs discs() { return {x_, radius_, mass_, grain_, v_, rim_speed_}; }
     std::size_t grains() const { return grain_start_.size() - 1; }
-    void settle(const Box& box);
+    void settle(const Box& box, double h);
     void break_bonds();
     void note_convergence();
     double inner_energy();
-    double time_step() const;
+    double time_step(double step) const;
+    SolvedContacts solved_contacts() const;
     void step(const WallMotion& walls, double h);
     void account(const WallMotion& walls, double h);
-    void watch(double h) const;
+    void watch(double h, double largest_move) const;
     double kinetic_energy() const;
     double root_mean_square_speed() const;
 
@@ -110,11 +120,13 @@ class BpmSolver final : public Solver {
     std::vector<int> grain_start_;  ///< [grains + 1] first disc of each grain
     std::vector<int> grain_;        ///< [discs]
     std::vector<Vec2> x_, v_, force_, v_before_;
+    std::vector<Vec2> x_before_;  ///< with Box2D only
     std::vector<double> radius_, mass_, rim_speed_, rim_speed_before_;
     double diameter_, maximum_force_, time_step_;
     Attraction attraction_;
     std::optional<Bonds> bonds_;  ///< instead of the attraction
     ContactDynamics contacts_;
+    std::optional<Box2dContacts> box2d_;  ///< instead of contacts_, once the grains are placed
     ThreadChoice threads_;
 
     double time_ = 0.0;
@@ -122,6 +134,7 @@ class BpmSolver final : public Solver {
     double last_step_ = 0.0;
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     EnergyLedger energy_;
+    double correction_energy_ = 0.0;
     double potential_at_start_ = 0.0;
     ContactResult contact_result_;
     long long steps_ = 0, unconverged_steps_ = 0;

@@ -52,6 +52,10 @@ void BpmSolver::save(Checkpoint& to) const {
 }
 
 void BpmSolver::load(const Checkpoint& from) {
+    if (box2d_)
+        throw InputError(
+            "bpm: a run with engine = \"box2d\" cannot be resumed, for Box2D does not give out all of its "
+            "state; run it again from the start, or use engine = \"nscd\"");
     std::vector<double> radius, rim_speed, box, scalars;
     std::vector<Vec2> x, x_start, v, wall_force;
     from.get("bpm.radius", radius);

@@ -40,15 +40,16 @@ GrainView BpmSolver::view(Need need) {
     if (bonds_) view.fragments = count_fragments();
     const GrainContactInput after_step{discs(),   centroid_, reference_area_, box_, touch_gap * diameter_,
                                        last_step_};
+    if (box2d_) box2d_->add_near(discs(), box_, touch_gap * diameter_);
     if (wants(need, Need::contacts) || wants(need, Need::stress)) {
-        grain_contacts_ = sum_grain_contacts(contacts_, after_step);
+        grain_contacts_ = sum_grain_contacts(solved_contacts(), after_step);
         view.contacts = grain_contacts_.contacts;
         view.stress = grain_contacts_.stress;
     }
     if (wants(need, Need::area) || wants(need, Need::outlines)) view_outlines(need, view);
     if (wants(need, Need::fields)) view_fields(view);
     if (wants(need, Need::parts)) {
-        disc_contacts_ = list_disc_contacts(contacts_, after_step);
+        disc_contacts_ = list_disc_contacts(solved_contacts(), after_step);
         view_parts(view);
     }
     return view;
@@ -105,7 +106,7 @@ void BpmSolver::view_fields(GrainView& view) {
         double& deepest = grain_penetration_[at(grain_[at(disc)])];
         deepest = std::max(deepest, overlap / diameter_);
     };
-    const ContactRows& rows = contacts_.rows();
+    const ContactRows& rows = solved_contacts().rows;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::size_t i = at(rows.i[k]);
         const std::size_t j = at(rows.j[k]);
@@ -113,7 +114,7 @@ void BpmSolver::view_fields(GrainView& view) {
         note(rows.i[k], overlap);
         note(rows.j[k], overlap);
     }
-    const WallRows& walls = contacts_.wall_rows();
+    const WallRows& walls = solved_contacts().wall_rows;
     for (std::size_t k = 0; k < walls.size(); ++k) {
         const std::size_t d = at(walls.disc[k]);
         note(walls.disc[k], radius_[d] - box_.distance(walls.wall[k], x_[d]));
