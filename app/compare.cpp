@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/calibrate.hpp"
 #include "app/comparison_table.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
@@ -28,13 +29,14 @@ std::optional<RunReport> finished_run(const std::filesystem::path& folder) {
     return report.exit_code == 0 ? std::optional(report) : std::nullopt;
 }
 
-MethodResult run_one(const CompareRequest& request, const Packing& packing, const Method& method) {
+MethodResult run_one(const CompareRequest& request, const Scenario& scenario, const Packing& packing,
+                     const Method& method) {
     const auto folder = request.folder / method.name;
     MethodResult result;
     if (const auto done = request.resume ? finished_run(folder) : std::nullopt) {
         result.report = *done;
     } else {
-        result.report = run_into_folder({.scenario = request.scenario,
+        result.report = run_into_folder({.scenario = scenario,
                                          .packing = packing,
                                          .method = method,
                                          .folder = folder,
@@ -103,6 +105,8 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
 int compare(const CompareRequest& request) {
     std::vector<const Method*> chosen;
     for (const std::string& name : request.methods) chosen.push_back(&find_method(name));
+    if (request.calibrate && std::ranges::find(request.methods, "bpm") == request.methods.end())
+        throw InputError("--calibrate is about bpm, which is not among the methods");
     std::optional<Reference> reference;
     if (!request.reference.empty())
         reference = {request.reference.stem().string(), read_history(request.reference)};
@@ -113,10 +117,18 @@ int compare(const CompareRequest& request) {
     fmt::print("{} grains, undeformed packing fraction {:.4f}, box {:.4g} x {:.4g}\n", packing.size(),
                packing.packing_fraction_undeformed(), packing.box.width(), packing.box.height());
 
+    std::optional<CalibratedScenario> calibrated;
+    if (request.calibrate) {
+        calibrated = with_calibrated_aggregates(request.scenario, packing.mean_radius(), request.threads);
+        fmt::print("{}\n", calibrated->said);
+    }
+
     std::vector<MethodResult> results;
     int exit_code = 0;
     for (const Method* method : chosen) {
-        results.push_back(run_one(request, packing, *method));
+        const bool use_calibrated = calibrated && method->name == "bpm";
+        results.push_back(
+            run_one(request, use_calibrated ? calibrated->scenario : request.scenario, packing, *method));
         const RunReport& report = results.back().report;
         if (report.exit_code > 128) return report.exit_code;
         if (report.exit_code != 0) {
@@ -126,7 +138,8 @@ int compare(const CompareRequest& request) {
     }
 
     const auto phi = request.at.empty() ? packing_fractions_to_compare(results, table_columns) : request.at;
-    const std::string table = comparison_table(results, reference, phi);
+    std::string table = comparison_table(results, reference, phi);
+    if (calibrated) table += fmt::format("- {}\n", calibrated->said);
     fmt::print("\n{}\n", table);
     write_file_atomically(request.folder / "comparison.md",
                           fmt::format("# {}\n\n{}", request.scenario.title, table));

@@ -16,6 +16,7 @@ struct CompareRequest {
         reference;           ///< CSV with packing_fraction, mean_stress, coordination_number; empty for none
     std::vector<double> at;  ///< packing fractions of the table; empty lets the program choose
     int threads = 1;
+    bool calibrate = false;  ///< give the aggregates of bpm the yield stress of the material
     bool resume = false;
     bool force = false;
     bool pictures = true;

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/calibrate.hpp"
 #include "app/compare.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
@@ -30,7 +32,10 @@ struct Arguments {
     std::vector<double> at;
     std::vector<std::string> set;
     std::vector<std::string> rest;
+    double plateau = 0.0, modulus = 0.0;
+    int seeds = 5;
     int threads = 0;
+    bool calibrate = false;
     bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
 };
 
@@ -64,10 +69,22 @@ int compare_command(const Arguments& a) {
                     .reference = a.reference,
                     .at = a.at,
                     .threads = a.threads,
+                    .calibrate = a.calibrate,
                     .resume = a.resume,
                     .force = a.force,
                     .pictures = !a.no_pictures,
                     .quiet = a.quiet});
+}
+
+int calibrate_command(const Arguments& a) {
+    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const bool by_plateau = a.plateau > 0.0;
+    return calibrate({.scenario = scenario,
+                      .property = by_plateau ? bpm::GrainProperty::plateau : bpm::GrainProperty::modulus,
+                      .asked = by_plateau ? a.plateau : a.modulus,
+                      .seeds = a.seeds,
+                      .threads = a.threads,
+                      .curve = a.out});
 }
 
 int validate_command(const Arguments& a) {
@@ -131,12 +148,40 @@ void scenario_options(CLI::App& command, Arguments& a) {
         ->expected(1);
 }
 
-void run_options(CLI::App& command, Arguments& a) {
-    scenario_options(command, a);
-    command.add_option("--out", a.out, "folder for the results")->required();
+/// A finite number > 0.
+std::string not_positive(const std::string& text) {
+    double value = 0.0;
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    return is_number && value > 0.0 && std::isfinite(value)
+               ? ""
+               : fmt::format("must be a number > 0, got {}", text);
+}
+
+void thread_option(CLI::App& command, Arguments& a) {
     command.add_option("--threads", a.threads, "most threads to use; the results do not depend on it")
         ->default_val(omp_get_num_procs())
         ->check(CLI::Range(1, 1024));
+}
+
+void calibrate_options(CLI::App& command, Arguments& a) {
+    scenario_options(command, a);
+    thread_option(command, a);
+    CLI::Option_group* wanted = command.add_option_group("wanted", "one of them");
+    wanted->add_option("--plateau", a.plateau, "stress at which one grain between two walls yields [N/m]")
+        ->check(not_positive);
+    wanted->add_option("--modulus", a.modulus, "initial modulus of one grain between two walls [N/m]")
+        ->check(not_positive);
+    wanted->require_option(1);
+    command.add_option("--seeds", a.seeds, "grains to measure, and as many again to check")
+        ->check(CLI::Range(2, 1000))
+        ->capture_default_str();
+    command.add_option("--out", a.out, "CSV file for the curves of the check");
+}
+
+void run_options(CLI::App& command, Arguments& a) {
+    scenario_options(command, a);
+    thread_option(command, a);
+    command.add_option("--out", a.out, "folder for the results")->required();
     command.add_flag("--resume", a.resume, "go on from the last checkpoint in the folder");
     command.add_flag("--force", a.force, "replace results that are in the folder");
     command.add_flag("--quiet", a.quiet, "no progress");
@@ -172,8 +217,15 @@ int command_line(int argc, char** argv) {
     compare_app->add_option("--at", a.at, "packing fractions of the table, comma separated")
         ->delimiter(',')
         ->check(CLI::Range(0.0, 1.0));
+    compare_app->add_flag(
+        "--calibrate", a.calibrate,
+        "choose bpm.attraction_stress so that aggregates yield at material.yield_stress, or "
+        "at 0.05 E if it is not given");
     compare_app->add_flag("--no-pictures", a.no_pictures, "numbers only, no plots and pictures");
 
+    calibrate_options(*add("calibrate", "find the attraction that gives aggregates (bpm) a wanted strength",
+                           calibrate_command, "calibrate scenarios/default.toml --plateau 0.05"),
+                      a);
     scenario_options(*add("validate", "check a scenario file and say all that is wrong with it",
                           validate_command, "validate my_scenario.toml"),
                      a);

@@ -34,7 +34,10 @@ struct Aggregate {
 inline constexpr double aggregate_speed_bound = 1e-3;
 inline constexpr double aggregate_overlap_bound = 1e-4;
 
-/// The outline of the grain encloses pi radius^2 [m^2]. Throws DivergedError if the bounds are not met.
-Aggregate prepare_aggregate(const AggregateSpec& spec, double radius);
+/// A grain of radius 1: its outline encloses pi. Throws DivergedError if the bounds are not met.
+Aggregate prepare_aggregate(const AggregateSpec& spec);
+
+/// The same grain, so much larger.
+void scale(Aggregate& grain, double factor);
 
 }  // namespace softgrain::bpm

@@ -154,7 +154,7 @@ std::span<const KeySpec> keys() {
         {"bond_damping", KeyType::number, 0.2, "", "share of a bond's critical damping", {0.0, 1.0}},
         {"bond_reach",
          KeyType::number,
-         0.3,
+         0.6,
          "disc diameters",
          "discs with a smaller gap are bonded",
          {1e-3, 1.0}},
@@ -234,7 +234,7 @@ BpmSettings settings_of(const Scenario& scenario) {
 const Method& method() {
     static const Method row{"bpm",
                             "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
-                            &keys, &make, ""};
+                            &keys, &make, "fragments, unless its grains have bonds"};
     return row;
 }
 

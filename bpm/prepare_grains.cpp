@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
+#include <numeric>
+#include <optional>
 
+#include "bpm/aggregate_cache.hpp"
 #include "common/errors.hpp"
 
 namespace softgrain::bpm {
@@ -17,6 +21,27 @@ constexpr double most_discs = 1e6;  // of one grain
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
+}
+
+std::vector<Aggregate> prepare_all(const std::vector<AggregateSpec>& specs) {
+    std::vector<Aggregate> aggregates(specs.size());
+    std::vector<std::exception_ptr> failure(specs.size());
+    // The largest grains first: they take longest.
+    std::vector<std::size_t> order(specs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t g) { return specs[g].discs; });
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t n = 0; n < order.size(); ++n) {
+        const std::size_t g = order[n];
+        try {
+            aggregates[g] = prepare_aggregate(specs[g]);
+        } catch (...) {
+            failure[g] = std::current_exception();
+        }
+    }
+    for (const std::exception_ptr& error : failure)
+        if (error) std::rethrow_exception(error);
+    return aggregates;
 }
 
 }  // namespace
@@ -52,19 +77,14 @@ std::vector<Aggregate> prepare_grains(const Scenario& scenario, const Packing& p
                          .outline_rho = settings.outline_rho,
                          .seed = scenario.seed,
                          .grain = g});
-    std::vector<Aggregate> aggregates(packing.size());
-    std::vector<std::exception_ptr> failure(packing.size());
-#pragma omp parallel for schedule(dynamic)
-    for (int g = 0; g < grains; ++g) {
-        try {
-            aggregates[at(g)] = prepare_aggregate(specs[at(g)], packing.radius[at(g)]);
-        } catch (...) {
-            failure[at(g)] = std::current_exception();
-        }
+    const AggregateCache cache(cache_folder());
+    std::optional<std::vector<Aggregate>> kept = cache.find(specs);
+    if (!kept) {
+        kept = prepare_all(specs);
+        cache.keep(specs, *kept);
     }
-    for (const std::exception_ptr& error : failure)
-        if (error) std::rethrow_exception(error);
-    return aggregates;
+    for (int g = 0; g < grains; ++g) scale((*kept)[at(g)], packing.radius[at(g)]);
+    return std::move(*kept);
 }
 
 }  // namespace softgrain::bpm

@@ -88,7 +88,7 @@ class BpmSolver final : public Solver {
     struct Assembly {
         std::vector<int> grain_start;
         std::vector<Vec2> x;
-        std::vector<double> radius, mass, reference_area;
+        std::vector<double> radius, mass, reference_area, internal_packing_fraction;
     };
     static Assembly assemble(const Scenario& scenario, const Packing& packing, const BpmSettings& settings);
     BpmSolver(const Scenario& scenario, const Packing& packing, const BpmSettings& settings,
@@ -109,6 +109,7 @@ class BpmSolver final : public Solver {
     double root_mean_square_speed() const;
 
     void view_grains();
+    double count_fragments();
     void view_outlines(Need need, GrainView& view);
     void view_fields(GrainView& view);
     void view_parts(GrainView& view);
@@ -141,7 +142,8 @@ class BpmSolver final : public Solver {
 
     // What view() hands out.
     std::vector<Vec2> centroid_, velocity_, outline_point_;
-    std::vector<double> grain_mass_, reference_area_, area_, disc_count_, grain_penetration_, iterations_;
+    std::vector<double> grain_mass_, reference_area_, area_, disc_count_, grain_penetration_;
+    std::vector<double> internal_packing_fraction_, fragment_, fragments_of_grain_;
     std::vector<int> outline_offset_;
     GrainContacts grain_contacts_;
     DiscContacts disc_contacts_;

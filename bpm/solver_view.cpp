@@ -35,6 +35,9 @@ GrainView BpmSolver::view(Need need) {
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy_;
+    view.contact_report = {penetration_ * diameter_, contact_result_.sweeps,
+                           static_cast<double>(unconverged_steps_)};
+    if (bonds_) view.fragments = count_fragments();
     const GrainContactInput after_step{discs(),   centroid_, reference_area_, box_, touch_gap * diameter_,
                                        last_step_};
     if (box2d_) box2d_->add_near(discs(), box_, touch_gap * diameter_);
@@ -116,7 +119,6 @@ void BpmSolver::view_fields(GrainView& view) {
         const std::size_t d = at(walls.disc[k]);
         note(walls.disc[k], radius_[d] - box_.distance(walls.wall[k], x_[d]));
     }
-    iterations_.assign(grains(), contact_result_.iterations);
     view.fields.push_back({"discs", "", 1, disc_count_});
     view.fields.push_back({"penetration", "disc diameters", 1, grain_penetration_});
     deformation_.resize(4 * grains());
@@ -126,7 +128,8 @@ void BpmSolver::view_fields(GrainView& view) {
         for (int k = 0; k < 4; ++k) deformation_[4 * g + at(k)] = motion.gradient(k / 2, k % 2);
         non_affine_motion_[g] = motion.residual / (diameter_ * diameter_);
     }
-    view.fields.push_back({"contact_iterations", "", 1, iterations_});
+    view.fields.push_back({"internal_packing_fraction", "", 1, internal_packing_fraction_});
+    if (bonds_) view.fields.push_back({"fragments", "", 1, fragments_of_grain_});
     view.fields.push_back({"F", "1", 4, deformation_});
     view.fields.push_back({"non_affine_motion", "disc diameters^2", 1, non_affine_motion_});
 }
@@ -136,6 +139,21 @@ AffineFit BpmSolver::motion_of(std::size_t grain) const {
     const std::size_t first = at(grain_start_[grain]);
     const std::size_t count = at(grain_start_[grain + 1]) - first;
     return fit_affine(std::span(x_start_).subspan(first, count), std::span(x_).subspan(first, count));
+}
+
+/// Of all grains; notes those of each grain and disc.
+double BpmSolver::count_fragments() {
+    const std::vector<int> label = bonds_->fragments();
+    fragment_.assign(label.begin(), label.end());
+    fragments_of_grain_.assign(grains(), 0.0);
+    int count = 0;
+    // Fragments are numbered in the order of their first disc, and grains follow each other.
+    for (std::size_t d = 0; d < label.size(); ++d)
+        if (label[d] == count) {
+            ++count;
+            ++fragments_of_grain_[at(grain_[d])];
+        }
+    return count;
 }
 
 void BpmSolver::view_parts(GrainView& view) {
@@ -156,6 +174,7 @@ void BpmSolver::view_parts(GrainView& view) {
                          {"touching", "", 1, disc_contacts_.touching},
                          {"contact_force", "N", 1, disc_contacts_.force},
                          {"non_affine_displacement", "m", 2, non_affine_displacement_}};
+    if (bonds_) view.parts.fields.push_back({"fragment", "", 1, fragment_});
 }
 
 }  // namespace softgrain::bpm

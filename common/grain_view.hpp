@@ -2,6 +2,7 @@
 // The common tongue: what every method tells about its grains. Observables and writers read only this.
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -89,6 +90,14 @@ struct PartView {
     std::size_t size() const { return position.size(); }
 };
 
+/// How a method that solves for its contacts fares; nan for all others.
+struct ContactReport {
+    double penetration =
+        std::numeric_limits<double>::quiet_NaN();              ///< deepest overlap before the last step [m]
+    double sweeps = std::numeric_limits<double>::quiet_NaN();  ///< over the contacts, in the last step
+    double unconverged_steps = std::numeric_limits<double>::quiet_NaN();  ///< since the start
+};
+
 /// Non-owning view of a solver's state; valid until the solver advances. Stress is compression positive.
 struct GrainView {
     double time = 0.0;
@@ -114,6 +123,10 @@ struct GrainView {
     std::vector<Field> fields;
 
     PartView parts;
+
+    ContactReport contact_report;
+    double fragments =
+        std::numeric_limits<double>::quiet_NaN();  ///< that all grains have come to, if they can break
 
     std::size_t size() const { return centroid.size(); }
 };

@@ -17,7 +17,7 @@ const Method& method() {
             refuse(scenario, packing, "rigid_dem", Feature::yield_stress, "its contacts are elastic");
             return std::make_unique<RigidDem>(scenario, packing);
         },
-        .not_given = ""};
+        .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
     return row;
 }
 

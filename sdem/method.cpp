@@ -204,7 +204,7 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 
 const Method& method() {
     static const Method row{"sdem", "SDEM: soft discs with six degrees of freedom (Mollon 2022)", keys, make,
-                            ""};
+                            "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
     return row;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <map>
 #include <numeric>
 
 #include "common/contact_dynamics/row_batches.hpp"
@@ -12,14 +13,10 @@ namespace {
 constexpr std::size_t max_colours = 256;
 using Colours = std::bitset<max_colours>;
 
-/// Where a row goes: a block's own rows come first, then the seams by colour.
-struct Candidate {
-    int seam_colour;  ///< -1 inside a block
-    int a, b;         ///< blocks
-    bool single;      ///< left over when the rows of a colour were put into batches
-    int colour;       ///< inside a block
-    Pair pair;
-    friend auto operator<=>(const Candidate&, const Candidate&) = default;
+/// A row to be, and the place of its pair in the list of candidates.
+struct Row {
+    int colour;
+    std::size_t pair;
 };
 
 /// Greedy colouring of the edges of a graph, in the order they come. Should 256 colours not do, each further
@@ -45,127 +42,122 @@ class Colouring {
     int overflow_ = 0;
 };
 
-/// Moves the rows that fill no batch of their block and colour to the end of the block.
-void set_singles_apart(std::vector<Candidate>& candidates) {
-    const auto same_part = [](const Candidate& x, const Candidate& y) {
-        return x.seam_colour == y.seam_colour && x.a == y.a && x.b == y.b;
-    };
-    for (auto first = candidates.begin(); first != candidates.end() && first->seam_colour < 0;) {
-        const auto last =
-            std::find_if(first, candidates.end(), [&](const Candidate& c) { return !same_part(c, *first); });
+/// Rows inside blocks: block by block, in batches, singles at the end of each block.
+class InsideRows {
+  public:
+    InsideRows(std::span<const Pair> pairs, const ContactBlocks& blocks)
+        : start_(static_cast<std::size_t>(blocks.size()) + 1, 0) {
+        const auto block_of = [&](const Pair& pair) {
+            const int a = blocks.of_disc[static_cast<std::size_t>(pair.i)];
+            return a == blocks.of_disc[static_cast<std::size_t>(pair.j)] ? a : -1;
+        };
+        for (const Pair& pair : pairs)
+            if (const int block = block_of(pair); block >= 0) ++start_[static_cast<std::size_t>(block) + 1];
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        rows_.resize(static_cast<std::size_t>(start_.back()));
+        std::vector<int> fill(start_.begin(), start_.end() - 1);
+        Colouring colouring(blocks.of_disc.size());
+        for (std::size_t k = 0; k < pairs.size(); ++k)
+            if (const int block = block_of(pairs[k]); block >= 0)
+                rows_[static_cast<std::size_t>(fill[static_cast<std::size_t>(block)]++)] = {
+                    colouring.colour_of(pairs[k].i, pairs[k].j), k};
+        first_single_.assign(start_.begin(), start_.end() - 1);
+        for (std::size_t b = 0; b < first_single_.size(); ++b) put_into_batches(b);
+    }
+
+    const std::vector<Row>& rows() const { return rows_; }
+    const std::vector<int>& start() const { return start_; }
+    const std::vector<int>& first_single() const { return first_single_; }
+
+  private:
+    void put_into_batches(std::size_t block) {
+        const auto first = rows_.begin() + start_[block], last = rows_.begin() + start_[block + 1];
+        std::stable_sort(first, last, [](const Row& a, const Row& b) { return a.colour < b.colour; });
+        std::vector<Row> singles;
+        auto kept = first;
         for (auto row = first; row != last;) {
-            const auto next =
-                std::find_if(row, last, [&](const Candidate& c) { return c.colour != row->colour; });
-            const auto left = (next - row) % contact_sweep::batch_rows;
-            for (auto k = next - left; k != next; ++k) k->single = true;
+            const auto next = std::find_if(row, last, [&](const Row& r) { return r.colour != row->colour; });
+            const auto whole = row + (next - row) / contact_sweep::batch_rows * contact_sweep::batch_rows;
+            singles.insert(singles.end(), whole, next);
+            kept = std::copy(row, whole, kept);
             row = next;
         }
-        std::stable_partition(first, last, [](const Candidate& c) { return !c.single; });
-        first = last;
+        first_single_[block] = static_cast<int>(kept - rows_.begin());
+        std::copy(singles.begin(), singles.end(), kept);
     }
+
+    std::vector<Row> rows_;
+    std::vector<int> start_, first_single_;
+};
+
+/// A row between two blocks.
+struct SeamRow {
+    int colour, a, b;
+    std::size_t pair;
+    friend auto operator<=>(const SeamRow&, const SeamRow&) = default;
+};
+
+std::vector<SeamRow> sorted_seam_rows(std::span<const Pair> pairs, const ContactBlocks& blocks) {
+    std::vector<SeamRow> rows;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto [a, b] = std::minmax(blocks.of_disc[static_cast<std::size_t>(pairs[k].i)],
+                                        blocks.of_disc[static_cast<std::size_t>(pairs[k].j)]);
+        if (a != b) rows.push_back({0, a, b, k});
+    }
+    std::sort(rows.begin(), rows.end());
+    Colouring colouring(blocks.group_of_block.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const bool same = k > 0 && rows[k - 1].a == rows[k].a && rows[k - 1].b == rows[k].b;
+        rows[k].colour = same ? rows[k - 1].colour : colouring.colour_of(rows[k].a, rows[k].b);
+    }
+    std::sort(rows.begin(), rows.end());
+    return rows;
 }
 
-std::vector<Candidate> sorted_candidates(std::span<const Pair> pairs, const Discs& discs,
-                                         const ContactBlocks& blocks) {
-    Colouring inside(discs.x.size());
-    std::vector<Candidate> candidates;
-    candidates.reserve(pairs.size());
-    std::vector<std::pair<int, int>> seams;
-    for (const Pair& pair : pairs) {
-        const auto [a, b] = std::minmax(blocks.of_disc[static_cast<std::size_t>(pair.i)],
-                                        blocks.of_disc[static_cast<std::size_t>(pair.j)]);
-        if (a != b) seams.emplace_back(a, b);
-        candidates.push_back({-1, a, b, false, a == b ? inside.colour_of(pair.i, pair.j) : 0, pair});
-    }
-    std::sort(seams.begin(), seams.end());
-    seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
-    Colouring between(blocks.group_of_block.size());
-    std::vector<int> colours;
-    for (const auto& [a, b] : seams) colours.push_back(between.colour_of(a, b));
-    for (Candidate& candidate : candidates) {
-        if (candidate.a == candidate.b) continue;
-        const auto seam = std::lower_bound(seams.begin(), seams.end(), std::pair(candidate.a, candidate.b));
-        candidate.seam_colour = colours[static_cast<std::size_t>(seam - seams.begin())];
-    }
-    std::sort(candidates.begin(), candidates.end());
-    set_singles_apart(candidates);
-    return candidates;
-}
-
-/// Notes where blocks and seams begin.
-void mark_parts(const std::vector<Candidate>& candidates, int blocks, ContactRows& rows) {
-    rows.block_start.assign(static_cast<std::size_t>(blocks) + 1, 0);
-    rows.first_single.assign(static_cast<std::size_t>(blocks), 0);
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Candidate& now = candidates[k];
-        const int row = static_cast<int>(k);
-        if (now.seam_colour < 0) {
-            const auto block = static_cast<std::size_t>(now.a);
-            ++rows.block_start[block + 1];
-            if (!now.single) ++rows.first_single[block];
-            continue;
-        }
-        const bool first = rows.seams.empty();
-        if (first || candidates[k - 1].seam_colour != now.seam_colour)
+/// Notes where the seams begin; the first of their rows is `first`.
+void mark_seams(const std::vector<SeamRow>& seam_rows, int first, ContactRows& rows) {
+    for (std::size_t k = 0; k < seam_rows.size(); ++k) {
+        const SeamRow& now = seam_rows[k];
+        const int row = first + static_cast<int>(k);
+        if (k == 0 || seam_rows[k - 1].colour != now.colour)
             rows.colour_start.push_back(static_cast<int>(rows.seams.size()));
-        if (first || rows.seams.back().a != now.a || rows.seams.back().b != now.b)
+        if (k == 0 || rows.seams.back().a != now.a || rows.seams.back().b != now.b)
             rows.seams.push_back({now.a, now.b, row, row});
         rows.seams.back().last = row + 1;
     }
     rows.colour_start.push_back(static_cast<int>(rows.seams.size()));
-    std::partial_sum(rows.block_start.begin(), rows.block_start.end(), rows.block_start.begin());
-    for (std::size_t b = 0; b < rows.first_single.size(); ++b) rows.first_single[b] += rows.block_start[b];
-}
-
-/// Row numbers in the order of (first, second).
-std::vector<std::size_t> order_of(const std::vector<int>& first, const std::vector<int>& second) {
-    std::vector<std::size_t> order(first.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return first[a] != first[b] ? first[a] < first[b] : second[a] < second[b];
-    });
-    return order;
-}
-
-/// Calls match(a, b) for every row a of one list that is row b of the other.
-template <class Match>
-void match_rows(const std::vector<int>& i0, const std::vector<int>& j0, const std::vector<int>& i1,
-                const std::vector<int>& j1, Match match) {
-    const std::vector<std::size_t> old_order = order_of(i0, j0);
-    const std::vector<std::size_t> new_order = order_of(i1, j1);
-    std::size_t a = 0;
-    for (std::size_t b : new_order) {
-        const auto before = [&](std::size_t k) { return i0[k] != i1[b] ? i0[k] < i1[b] : j0[k] < j1[b]; };
-        while (a < old_order.size() && before(old_order[a])) ++a;
-        if (a == old_order.size()) return;
-        const std::size_t k = old_order[a];
-        if (i0[k] == i1[b] && j0[k] == j1[b]) match(k, b);
-    }
 }
 
 }  // namespace
 
 ContactRows make_contact_rows(std::span<const Pair> pairs, const Discs& discs, const ContactBlocks& blocks,
                               RowContent content) {
-    const std::vector<Candidate> candidates = sorted_candidates(pairs, discs, blocks);
-    const std::size_t n = candidates.size();
+    const InsideRows inside(pairs, blocks);
+    const std::vector<SeamRow> seam_rows = sorted_seam_rows(pairs, blocks);
+    const std::size_t n = pairs.size();
     ContactRows rows;
-    mark_parts(candidates, blocks.size(), rows);
-    rows.i.resize(n);
-    rows.j.resize(n);
-    rows.share.resize(n);
+    rows.block_start = inside.start();
+    rows.first_single = inside.first_single();
+    mark_seams(seam_rows, inside.start().back(), rows);
+    rows.i.reserve(n);
+    rows.j.reserve(n);
+    rows.share.reserve(n);
+    rows.row_of_pair.resize(n);
+    const auto append = [&](std::size_t pair) {
+        rows.row_of_pair[pair] = static_cast<int>(rows.i.size());
+        rows.i.push_back(pairs[pair].i);
+        rows.j.push_back(pairs[pair].j);
+        const double mi = discs.mass[static_cast<std::size_t>(pairs[pair].i)];
+        const double mj = discs.mass[static_cast<std::size_t>(pairs[pair].j)];
+        rows.share.push_back(mj / (mi + mj));
+    };
+    for (const Row& row : inside.rows()) append(row.pair);
+    for (const SeamRow& row : seam_rows) append(row.pair);
     rows.direction.assign(n, Vec2::UnitX());
     rows.gap_speed.assign(n, 0.0);
     rows.normal.assign(n, 0.0);
     if (content.tangential) rows.tangential.assign(n, 0.0);
     if (content.rolling) rows.rolling.assign(n, 0.0);
-    for (std::size_t k = 0; k < n; ++k) {
-        rows.i[k] = candidates[k].pair.i;
-        rows.j[k] = candidates[k].pair.j;
-        const double mi = discs.mass[static_cast<std::size_t>(rows.i[k])];
-        const double mj = discs.mass[static_cast<std::size_t>(rows.j[k])];
-        rows.share[k] = mj / (mi + mj);
-    }
     return rows;
 }
 
@@ -195,16 +187,29 @@ WallRows make_wall_rows(const Discs& discs, const Box& box, double skin, const C
 }
 
 void carry_impulses(const ContactRows& from, ContactRows& to) {
-    match_rows(from.i, from.j, to.i, to.j, [&](std::size_t a, std::size_t b) {
+    auto old = from.row_of_pair.begin();
+    for (const int now : to.row_of_pair) {
+        const auto b = static_cast<std::size_t>(now);
+        const Pair pair{to.i[b], to.j[b]};
+        const auto pair_of = [&](int row) {
+            return Pair{from.i[static_cast<std::size_t>(row)], from.j[static_cast<std::size_t>(row)]};
+        };
+        while (old != from.row_of_pair.end() && pair_of(*old) < pair) ++old;
+        if (old == from.row_of_pair.end()) return;
+        if (pair_of(*old) != pair) continue;
+        const auto a = static_cast<std::size_t>(*old);
         to.normal[b] = from.normal[a];
         if (!to.tangential.empty()) to.tangential[b] = from.tangential[a];
         if (!to.rolling.empty()) to.rolling[b] = from.rolling[a];
-    });
+    }
 }
 
 void carry_impulses(const WallRows& from, WallRows& to) {
-    match_rows(from.disc, from.wall, to.disc, to.wall,
-               [&](std::size_t a, std::size_t b) { to.normal[b] = from.normal[a]; });
+    std::map<std::pair<int, int>, double> impulse;
+    for (std::size_t k = 0; k < from.size(); ++k) impulse[{from.disc[k], from.wall[k]}] = from.normal[k];
+    for (std::size_t k = 0; k < to.size(); ++k)
+        if (const auto found = impulse.find({to.disc[k], to.wall[k]}); found != impulse.end())
+            to.normal[k] = found->second;
 }
 
 }  // namespace softgrain

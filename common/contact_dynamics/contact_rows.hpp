@@ -35,6 +35,7 @@ struct ContactRows {
     std::vector<double>
         tangential;               ///< tangential impulse / m_e, along n turned by +90 degrees, on j; or empty
     std::vector<double> rolling;  ///< angular impulse / m_e on j [m^2/s]; or empty
+    std::vector<int> row_of_pair;   ///< the rows in the order of (i, j)
     std::vector<int> block_start;   ///< [blocks + 1] first row of each block
     std::vector<int> first_single;  ///< [blocks] first row after the batches
     std::vector<Seam> seams;

@@ -6,8 +6,8 @@
 
 namespace softgrain {
 
-/// From the area and its second moments, which roughness hardly changes, but for the perimeter and with it the
-/// circularity: 0.67 for a round aggregate of 100 discs, while its asphericity is 0.015.
+/// From the area and its second moments, which roughness hardly changes, but for the perimeter and with it
+/// the circularity: 0.67 for a round aggregate of 100 discs, while its asphericity is 0.015.
 struct Shape {
     double area = 0.0;          ///< signed: positive if counter-clockwise [m^2]
     double perimeter = 0.0;     ///< [m]

@@ -85,6 +85,12 @@ constexpr std::array table{
     Observable{"adhesion_energy", "J", N::base, [](const Frame& f) { return f.view.energy.adhesion; }},
     Observable{"stress_xy", "N/m", N::base, [](const Frame& f) { return stress(f)(0, 1); }},
     Observable{"shear_strain", "", N::base, [](const Frame& f) { return f.view.box.shear_strain(); }},
+    Observable{"contact_penetration", "m", N::base,
+               [](const Frame& f) { return f.view.contact_report.penetration; }},
+    Observable{"contact_sweeps", "", N::base, [](const Frame& f) { return f.view.contact_report.sweeps; }},
+    Observable{"unconverged_steps", "", N::base,
+               [](const Frame& f) { return f.view.contact_report.unconverged_steps; }},
+    Observable{"fragments", "", N::base, [](const Frame& f) { return f.view.fragments; }},
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 
+method=sdem gallery=mollon2022
 laws="lens_potential mollon2022"
 seeds="1 2 3 4 5"
 coarse=() fast=1e-3 # inertial number of all figures

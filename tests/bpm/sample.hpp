@@ -50,4 +50,23 @@ inline std::pair<double, double> extent(const BpmSolver& solver, int axis) {
     return {low, high};
 }
 
+/// Four grains pressed together.
+struct Pressed {
+    Packing packing = square_packing(2, 2, 0.1);
+    BpmSolver solver;
+    Box box = packing.box;
+
+    explicit Pressed(double friction = 0.0) : solver(scenario_of(60, 1, friction), packing) {
+        const double h = solver.stable_time_step();
+        for (int k = 0; k < 400; ++k) press(0.03, h);
+        // Come to rest: forces between grains and on walls balance.
+        for (int k = 0; k < 400; ++k) press(0.0, h);
+    }
+    void press(double speed, double h) {
+        const WallMotion walls = closing(box, speed);
+        solver.advance(walls, h);
+        box = walls.after(h);
+    }
+};
+
 }  // namespace softgrain::bpm

@@ -11,7 +11,9 @@ namespace softgrain::bpm {
 namespace {
 
 Aggregate grain(int discs, std::uint64_t seed, int index, double radius = 1.0) {
-    return prepare_aggregate({.discs = discs, .seed = seed, .grain = index}, radius);
+    Aggregate a = prepare_aggregate({.discs = discs, .seed = seed, .grain = index});
+    scale(a, radius);
+    return a;
 }
 
 TEST(Aggregate, MeetsItsBounds) {
@@ -82,7 +84,7 @@ TEST(Aggregate, EveryLawOfSizesAndAttractionMeetsTheBounds) {
                                     {.discs = 60, .attraction_exponent = 2.5, .attraction_range = 3.0},
                                     {.discs = 2},
                                     {.discs = 3, .attraction_range = 0.05}}) {
-        const Aggregate a = prepare_aggregate(spec, 1.0);
+        const Aggregate a = prepare_aggregate(spec);
         double diameter = 0.0, overlap = 0.0, area = 0.0;
         const auto discs = static_cast<double>(spec.discs);
         for (double r : a.radius) {

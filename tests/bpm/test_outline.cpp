@@ -131,7 +131,7 @@ TEST(Outline, EqualsClosingOnAGrid) {
 }
 
 TEST(Outline, PolygonEnclosesEveryDiscOfAGrain) {
-    const Aggregate grain = prepare_aggregate({.discs = 80, .seed = 2}, 1.0);
+    const Aggregate grain = prepare_aggregate({.discs = 80, .seed = 2});
     double diameter = 0.0;
     for (double r : grain.radius) diameter += 2.0 * r / 80.0;
     const Outline outline(grain.x, grain.radius, 0.3 * diameter, all_pairs(80));
@@ -210,7 +210,7 @@ TEST(Outline, IsTheAlphaComplexWithFillets) {
 
 /// How much area the outline of a grain has beyond the complex: the crevices of its rim.
 TEST(Outline, CountsCrevicesThatTheAlphaComplexDoesNot) {
-    const Aggregate grain = prepare_aggregate({.discs = 100, .seed = 2}, 1.0);
+    const Aggregate grain = prepare_aggregate({.discs = 100, .seed = 2});
     double diameter = 0.0;
     for (double r : grain.radius) diameter += 2.0 * r / 100.0;
     const double rho = 0.3 * diameter;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -94,7 +95,7 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, HelpAndVersionAndList) {
-    for (const std::string command : {"run", "compare", "validate", "list", "info"}) {
+    for (const std::string command : {"run", "compare", "calibrate", "validate", "list", "info"}) {
         const Outcome help = softgrain({command, "--help"});
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Example:"), std::string::npos) << command;
@@ -324,6 +325,75 @@ TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
     EXPECT_NE(run.out.find("- sdem: loading done"), std::string::npos) << run.out;
     EXPECT_FALSE(fs::exists(out / "rigid_dem"));
     EXPECT_TRUE(fs::exists(out / "sdem" / "history.csv"));
+}
+
+/// The number behind a word.
+double number_after(const std::string& text, const std::string& word) {
+    const auto at = text.find(word);
+    return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + word.size()));
+}
+
+TEST_F(CommandLine, CalibrateFindsTheAttractionAndSaysHowWell) {
+    const fs::path curve = folder / "curve.csv";
+    const Outcome o = softgrain({"calibrate", small_scenario().string(), "--plateau", "0.05", "--seeds", "3",
+                                 "--out", curve.string()});
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    const double stress = number_after(o.out, "attraction_stress = ");
+    const double measured = number_after(o.out, "measured "), reached = number_after(o.out, "reached ");
+    EXPECT_NEAR(stress * measured, 0.05, 1e-4);  // of printed digits
+    // A single grain of 30 discs scatters by 20 %.
+    EXPECT_NEAR(reached, 0.05, 0.02);
+    EXPECT_NE(o.out.find("seeds 4 to 6"), std::string::npos) << o.out;
+    const std::string csv = content(curve);
+    EXPECT_NE(csv.find("strain,mean,seed_4,seed_5,seed_6\n0.0025,"), std::string::npos) << csv;
+    EXPECT_GE(std::count(csv.begin(), csv.end(), '\n'), 60);
+
+    const std::string file = small_scenario().string();
+    for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+             {"calibrate", file},
+             {"calibrate", file, "--plateau", "1", "--modulus", "1"},
+             {"calibrate", file, "--plateau", "-1"},
+             {"calibrate", file, "--plateau", "nan"},
+             {"calibrate", file, "--modulus", "1", "--seeds", "1"},
+             {"calibrate", file, "--plateau", "1", "--set", "bpm.discs_per_grain=3"}}) {
+        const Outcome refused = softgrain(wrong);
+        EXPECT_EQ(refused.exit_code, 2) << wrong.back();
+        EXPECT_FALSE(refused.err.empty());
+    }
+}
+
+TEST_F(CommandLine, CompareCanMatchTheYieldStress) {
+    const std::string file = small_scenario().string();
+    const std::string out = (folder / "matched").string();
+    const std::vector<std::string> command{"compare",
+                                           file,
+                                           "--methods",
+                                           "sdem,bpm",
+                                           "--out",
+                                           out,
+                                           "--quiet",
+                                           "--no-pictures",
+                                           "--calibrate",
+                                           "--set",
+                                           "material.yield_stress=0.04"};
+    const Outcome o = softgrain(command);
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    const double stress = number_after(o.out, "bpm.attraction_stress ");
+    EXPECT_NE(o.out.find("= material.yield_stress, asked 0.04 N/m, reached "), std::string::npos) << o.out;
+    EXPECT_NE(content(fs::path(out) / "comparison.md").find("- bpm.attraction_stress "), std::string::npos);
+    // Each method's own scenario says what it ran with.
+    const std::string bpm = content(fs::path(out) / "bpm" / "scenario.toml");
+    EXPECT_NEAR(number_after(bpm, "\nattraction_stress = ") / stress, 1.0, 1e-3);
+    EXPECT_NE(content(fs::path(out) / "sdem" / "scenario.toml").find("\nyield_stress = 0.04"),
+              std::string::npos);
+
+    auto given = command;
+    given.back() = "bpm.attraction_stress=0.3";
+    given.emplace_back("--force");
+    EXPECT_NE(softgrain(given).err.find("leave one of them out"), std::string::npos);
+    auto without = command;
+    without[3] = "sdem";
+    EXPECT_EQ(softgrain(without).exit_code, 2);
 }
 
 }  // namespace

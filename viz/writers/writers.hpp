@@ -12,8 +12,8 @@ namespace softgrain {
 
 /// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids)
 /// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
-/// aspect_ratio, orientation, asphericity, circularity, grain_class if there is more than one, and the method's own fields. In a
-/// periodic cell each grain is drawn where its centroid lies in the cell.
+/// aspect_ratio, orientation, asphericity, circularity, grain_class if there is more than one, and the
+/// method's own fields. In a periodic cell each grain is drawn where its centroid lies in the cell.
 class GrainWriter final : public Observer {
   public:
     /// `needs`: which of area, stress, outlines and fields to write. `grain_class` [n] or empty.

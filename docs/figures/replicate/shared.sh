@@ -1,7 +1,8 @@
-# Shell functions that all figures share. Folders: $runs (results of the simulations), $made (tables and plots).
+# Shell functions that all figures share. Folders: $runs (results of the simulations), $made (tables and plots); $method runs them,
+# $gallery holds the pictures of the document.
 here=docs/figures/replicate
 
-# simulate NAME SCENARIO [key=value...]: puts a run of SDEM on the list.
+# simulate NAME SCENARIO [key=value...]: puts a run on the list.
 simulate() {
     local name=$1 scenario=$2 settings=""
     shift 2
@@ -14,9 +15,9 @@ run_the_plan() {
     sort -u "$out/plan" | while read -r name rest; do
         [ -e "$runs/$name/run.json" ] || echo "$name $rest"
     done | xargs -r -P 2 -L 1 bash -c '
-        name=$3 scenario=$4
-        "$1" run "scenarios/$scenario" --method sdem --threads 1 --quiet --force --out "$2/$name" "${@:5}" >"$2/$name.log" 2>&1 ||
-            echo "  $name failed: $(tail -1 "$2/$name.log")"' replicate "$softgrain" "$runs"
+        name=$4 scenario=$5
+        "$1" run "scenarios/$scenario" --method "$3" --threads 1 --quiet --force --out "$2/$name" "${@:6}" >"$2/$name.log" 2>&1 ||
+            echo "  $name failed: $(tail -1 "$2/$name.log")"' replicate "$softgrain" "$runs" "$method"
 }
 
 # histories NAME...: their history.csv, of those that are there.
@@ -85,6 +86,6 @@ table() {
 # row FIGURE SCENARIO STATEMENT NUMBERS PICTURE...: a line of the overview.
 row() {
     local links="" picture
-    for picture in "${@:5}"; do links+="${links:+, }[$picture](figures/mollon2022/$picture)"; done
+    for picture in "${@:5}"; do links+="${links:+, }[$picture](figures/$gallery/$picture)"; done
     echo "| $1 | $2 | $3 | $4 | $links |" >>"$out/overview"
 }
