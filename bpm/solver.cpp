@@ -30,7 +30,8 @@ constexpr std::size_t discs_worth_threads = 1000;
 constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
 constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
 constexpr double most_unconverged = 0.05;
-// 1 / step units of Box2D in a diameter: discs may reach 2 sqrt(F0 d/m), the slop is 0.005 step.
+// Units of Box2D in a diameter, times the step: discs may reach 4 sqrt(F0 d/m), the slop is 0.01 step.
+constexpr double box2d_units = 0.5;
 constexpr double most_box2d_units = 400.0;
 constexpr double invalid_overlap = 0.05;  // that Box2D leaves [mean disc diameters]
 constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
@@ -124,7 +125,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
         box2d_.emplace(Box2dSettings{.velocity_iterations = settings.velocity_iterations,
                                      .position_iterations = settings.position_iterations,
                                      .friction = scenario.material.friction,
-                                     .units = std::min(most_box2d_units, 1.0 / settings.step),
+                                     .units = std::min(most_box2d_units, box2d_units / settings.step),
                                      .diameter = diameter_,
                                      .mass = mean_of(mass_),
                                      .time = time_step(1.0)},
@@ -196,10 +197,6 @@ void BpmSolver::note_convergence() {
                                     unconverged_steps_, steps_, settings_.max_iterations));
 }
 
-double BpmSolver::inner_energy() {
-    return bonds_ ? bonds_->energy(x_) : attraction_.energy(x_);
-}
-
 SolvedContacts BpmSolver::solved_contacts() const {
     return box2d_ ? box2d_->contacts() : SolvedContacts{contacts_.rows(), contacts_.wall_rows()};
 }
@@ -242,44 +239,6 @@ void BpmSolver::step(const WallMotion& walls, double h) {
             mass_[at(rows.disc[k])] * rows.normal[k] / h * wall_normal(rows.wall[k]);
 }
 
-void BpmSolver::account(const WallMotion& walls, double h) {
-    double work = 0.0;
-    for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));
-    // The contact impulses p = m (v+ - v-) - h F gave the discs the kinetic energy p.(v- + v+)/2.
-    double given = 0.0;
-    for (std::size_t d = 0; d < x_.size(); ++d) {
-        const Vec2 impulse = mass_[d] * (v_[d] - v_before_[d]) - h * force_[d];
-        given += 0.5 * impulse.dot(v_[d] + v_before_[d]);
-        given +=
-            0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
-    }
-    if (box2d_) {
-        double corrections = 0.0;
-        for (std::size_t d = 0; d < x_.size(); ++d)
-            corrections -= force_[d].dot(x_[d] - x_before_[d] - h * v_[d]);
-        correction_energy_ += corrections;
-        given += corrections;
-    }
-    double rubbed = 0.0;
-    if (rubs_) {
-        const SolvedContacts solved = solved_contacts();
-        const ContactRows& rows = solved.rows;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            if (rows.tangential[k] == 0.0) continue;
-            const std::size_t i = at(rows.i[k]);
-            const std::size_t j = at(rows.j[k]);
-            const Vec2 t = perpendicular(rows.direction[k]);
-            const double slip = t.dot(v_[j] + v_before_[j] - v_[i] - v_before_[i]) - rim_speed_[i] -
-                                rim_speed_before_[i] - rim_speed_[j] - rim_speed_before_[j];
-            rubbed -= 0.5 * slip * rows.tangential[k] * solved.reduced_mass(k, mass_);
-        }
-    }
-    if (bonds_) energy_.damping += h * bonds_->damping_power(x_, v_before_, v_);
-    energy_.external_work += work;
-    energy_.friction += rubbed;
-    energy_.impact += work - given - rubbed;
-}
-
 void BpmSolver::watch(double h, double largest_move) const {
     for (std::size_t d = 0; d < v_.size(); ++d) {
         const double moved = h * v_[d].norm();
@@ -306,13 +265,6 @@ std::optional<std::string> BpmSolver::outside_validity() const {
         "the rigid discs are jammed solid: {} sweeps of the contact solver leave a residual of {:.3g} disc "
         "diameters (tolerance {:.3g}); the grains cannot be compacted further",
         contact_result_.iterations, residual, settings_.tolerance);
-}
-
-double BpmSolver::kinetic_energy() const {
-    double sum = 0.0;
-    for (std::size_t d = 0; d < v_.size(); ++d)
-        sum += mass_[d] * (0.5 * v_[d].squaredNorm() + 0.25 * rim_speed_[d] * rim_speed_[d]);
-    return sum;
 }
 
 double BpmSolver::root_mean_square_speed() const {

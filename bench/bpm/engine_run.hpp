@@ -1,10 +1,12 @@
 #pragma once
 // One sample under one engine, loaded at constant wall speed and timed in slices.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +33,7 @@ struct Sample {
     std::array<double, 4> wall;  ///< directions that the walls move in
     double start_speed, start_time;
     double speed, slice_time;
-    int slices;
+    int slices, seeds;
 };
 
 inline double cpu_seconds() {
@@ -41,10 +43,10 @@ inline double cpu_seconds() {
 /// One grain just between two walls, the other two out of reach; or a jammed packing.
 class EngineRun {
   public:
-    EngineRun(const Sample& sample, const Knobs& knobs)
+    EngineRun(const Sample& sample, const Knobs& knobs, std::uint64_t seed)
         : sample_(sample),
           packing_(packing_of(sample)),
-          solver_(scenario_of(sample, knobs), packing_),
+          solver_(scenario_of(sample, knobs, seed), packing_),
           box_(packing_.box),
           t0_(solver_.stable_time_step() / knobs.step) {
         if (sample.grains == 1) {
@@ -52,7 +54,11 @@ class EngineRun {
             box_.position[2] = low;
             box_.position[3] = high;
         }
+        const double height = box_.height();
         advance(sample.start_speed, sample.start_time);
+        state_ = sample.grains == 1 ? fmt::format("strain {:.3f}", 1.0 - box_.height() / height)
+                                    : fmt::format("packing fraction {:.3f}",
+                                                  solver_.view(Need::area).covered_area / box_.area());
         deepest_.clear();
         stress_.clear();
         work_ = solver_.view(Need::base).energy.external_work;
@@ -65,27 +71,18 @@ class EngineRun {
         cost_.push_back((cpu_seconds() - start) / sample_.slice_time);
     }
 
-    /// Median over the slices: CPU time per t0 [s].
-    double cost() const {
-        std::vector<double> sorted = cost_;
-        std::sort(sorted.begin(), sorted.end());
-        return sorted[sorted.size() / 2];
-    }
-    /// Of all steps that were timed [mean disc diameters].
-    double largest_penetration() const { return *std::max_element(deepest_.begin(), deepest_.end()); }
-    double mean_penetration() const { return mean_of(deepest_); }
-    double mean_stress() const { return mean_of(stress_); }  ///< on the moving walls [F0/<a0>]
-    std::size_t steps() const { return deepest_.size(); }
-    /// Energy that position correction gave the discs / work of the walls.
-    double correction_share() {
-        return (solver_.correction_energy() - corrections_) /
-               (solver_.view(Need::base).energy.external_work - work_);
-    }
+    const std::string& state_at_start() const { return state_; }
+    const std::vector<double>& cost() const { return cost_; }  ///< [slices] CPU time per t0 [s]
+    /// Of each step that was timed: largest penetration [mean disc diameters], stress on the moving walls
+    /// [F0/<a0>].
+    const std::vector<double>& penetration() const { return deepest_; }
+    const std::vector<double>& stress() const { return stress_; }
+    /// Of the walls, since the timing began [J].
+    double work() { return solver_.view(Need::base).energy.external_work - work_; }
+    /// That position correction gave the discs since then [J].
+    double corrections() const { return solver_.correction_energy() - corrections_; }
 
   private:
-    static double mean_of(const std::vector<double>& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    }
     static Packing packing_of(const Sample& sample) {
         if (sample.grains > 1) {
             Scenario scenario;
@@ -99,7 +96,7 @@ class EngineRun {
         return packing;
     }
     /// Units of stress F0/<a0> = 1.
-    static Scenario scenario_of(const Sample& sample, const Knobs& knobs) {
+    static Scenario scenario_of(const Sample& sample, const Knobs& knobs, std::uint64_t seed) {
         Settings settings(method().keys());
         settings.set("engine", knobs.engine);
         settings.set("discs_per_grain", std::int64_t{sample.discs_per_grain});
@@ -111,6 +108,7 @@ class EngineRun {
             settings.set("box2d_position_iterations", std::int64_t{knobs.position_iterations});
         }
         Scenario scenario;
+        scenario.seed = seed;
         scenario.method_settings.insert_or_assign("bpm", settings);
         return scenario;
     }
@@ -132,11 +130,11 @@ class EngineRun {
             solver_.advance(walls, dt);
             box_ = walls.after(dt);
             deepest_.push_back(solver_.penetration());
-            stress_.push_back(stress());
+            stress_.push_back(stress_now());
         }
     }
     /// Force on the top and bottom over the grain's width, or on all walls over their length.
-    double stress() const {
+    double stress_now() const {
         const auto& force = solver_.wall_force();
         const double vertical = force[3].y() - force[2].y();
         if (sample_.grains > 1)
@@ -149,6 +147,7 @@ class EngineRun {
     Packing packing_;
     BpmSolver solver_;
     Box box_;
+    std::string state_;
     double t0_;  ///< sqrt(m d / F0) [s]
     double work_ = 0.0, corrections_ = 0.0;
     std::vector<double> cost_, deepest_, stress_;

@@ -4,7 +4,9 @@
 #include <fmt/os.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "bench/bpm/engine_run.hpp"
 #include "bench/bpm/front.hpp"
@@ -18,22 +20,21 @@ constexpr double target = 1e-3;  // penetration that the engines are compared at
 const std::vector<Sample>& samples() {
     static const std::vector<Sample> table{
         // To a strain of 5 % first: 400 discs are 22 d high.
-        {"grain", 400, 1, {0.0, 0.0, 0.0, -1.0}, 0.05, 22.0, 0.02, 5.0, 5},
-        // From the jamming of its discs to a packing fraction of about 0.85.
-        {"packing", 100, 24, {1.0, -1.0, 1.0, -1.0}, 0.1, 12.0, 0.02, 1.2, 5},
+        {"grain", 400, 1, {0.0, 0.0, 0.0, -1.0}, 0.05, 22.0, 0.02, 5.0, 3, 3},
+        // From the jamming of the packing on.
+        {"packing", 100, 24, {1.0, -1.0, 1.0, -1.0}, 0.1, 10.0, 0.02, 0.8, 5, 1},
     };
     return table;
 }
 
-std::vector<Knobs> sweep(const Sample& sample) {
+std::vector<Knobs> sweep() {
     std::vector<Knobs> all;
     for (const double tolerance : {1e-2, 3e-3, 1e-3, 1e-4, 1e-5})
         for (const double step : {0.14, 0.07, 0.035}) all.push_back({"nscd", step, tolerance});
-    const bool small = sample.grains == 1;
     for (const double step : {0.04, 0.02, 0.01, 0.005, 0.0025})
         for (const auto& [velocity, position] : {std::pair{4, 1}, {8, 3}, {16, 8}, {64, 16}}) {
             if (velocity > 8 && step < 0.005) continue;
-            if (!small && velocity == 64 && step < 0.01) continue;
+            if (velocity == 64 && step < 0.02) continue;
             all.push_back({"box2d", step, 1e-4, velocity, position});
         }
     return all;
@@ -45,10 +46,36 @@ std::string knobs_text(const Knobs& knobs) {
                : fmt::format("iterations {} / {}", knobs.velocity_iterations, knobs.position_iterations);
 }
 
-/// A run that diverged is no longer there.
+/// What was found for one setting of the knobs.
+struct Summary {
+    double cost;                 ///< median of the slices: CPU time per t0 [s]
+    double largest, mean;        ///< penetration of all steps, their largest and their mean
+    double stress, corrections;  ///< mean stress; energy from position correction / work of the walls
+    std::size_t steps;
+};
+
+/// One run per seed; none if one of them diverged.
 struct Trial {
     Knobs knobs;
-    std::unique_ptr<EngineRun> run;
+    std::vector<std::unique_ptr<EngineRun>> runs;
+
+    Summary summary() const {
+        std::vector<double> cost;
+        double largest = 0.0, sum = 0.0, stress = 0.0, corrections = 0.0, work = 0.0;
+        std::size_t steps = 0;
+        for (const auto& run : runs) {
+            cost.insert(cost.end(), run->cost().begin(), run->cost().end());
+            largest = std::max(largest, std::ranges::max(run->penetration()));
+            sum = std::accumulate(run->penetration().begin(), run->penetration().end(), sum);
+            stress = std::accumulate(run->stress().begin(), run->stress().end(), stress);
+            steps += run->penetration().size();
+            corrections += run->corrections();
+            work += run->work();
+        }
+        std::ranges::sort(cost);
+        const double count = static_cast<double>(steps);
+        return {cost[cost.size() / 2], largest, sum / count, stress / count, corrections / work, steps};
+    }
 };
 
 template <class Action>
@@ -58,62 +85,67 @@ void unless_it_diverges(const Sample& sample, Trial& trial, Action action) {
     } catch (const DivergedError& error) {
         fmt::print(stderr, "{}, {}, step {:g}, {}: {}\n", sample.name, trial.knobs.engine, trial.knobs.step,
                    knobs_text(trial.knobs), error.what());
-        trial.run.reset();
+        trial.runs.clear();
     }
 }
 
 std::vector<Trial> measure(const Sample& sample) {
     std::vector<Trial> trials;
-    for (const Knobs& knobs : sweep(sample)) {
-        Trial trial{knobs, nullptr};
-        unless_it_diverges(sample, trial, [&] { trial.run = std::make_unique<EngineRun>(sample, knobs); });
+    for (const Knobs& knobs : sweep()) {
+        Trial trial{knobs, {}};
+        unless_it_diverges(sample, trial, [&] {
+            for (int seed = 1; seed <= sample.seeds; ++seed)
+                trial.runs.push_back(
+                    std::make_unique<EngineRun>(sample, knobs, static_cast<std::uint64_t>(seed)));
+        });
         trials.push_back(std::move(trial));
     }
     for (int slice = 0; slice < sample.slices; ++slice)
         for (Trial& trial : trials)
-            if (trial.run) unless_it_diverges(sample, trial, [&] { trial.run->time_a_slice(); });
+            unless_it_diverges(sample, trial, [&] {
+                for (const auto& run : trial.runs) run->time_a_slice();
+            });
+    std::erase_if(trials, [](const Trial& trial) { return trial.runs.empty(); });
     return trials;
 }
 
-void print_table(const Sample& sample, std::vector<Trial>& trials, fmt::ostream* csv) {
+void print_table(const Sample& sample, const std::vector<Trial>& trials, fmt::ostream* csv) {
     fmt::print(
-        "\n{}\n\n| engine | step | knobs | ms per t0 | largest penetration | mean of the steps' largest | "
-        "stress | corrections / work |\n|---|--:|---|--:|--:|--:|--:|--:|\n",
-        sample.name);
-    for (Trial& trial : trials) {
-        if (!trial.run) continue;
+        "\n{}, timed from a {} on, seeds: {}\n\n| engine | step | knobs | ms per t0 | largest penetration | "
+        "mean of the steps' largest | stress | corrections / work |\n|---|--:|---|--:|--:|--:|--:|--:|\n",
+        sample.name, trials.at(0).runs.at(0)->state_at_start(), sample.seeds);
+    for (const Trial& trial : trials) {
         const Knobs& k = trial.knobs;
-        EngineRun& run = *trial.run;
-        const double share = run.correction_share();
+        const Summary s = trial.summary();
         fmt::print("| {} | {:g} | {} | {:.2f} | {:.1e} | {:.1e} | {:.3f} | {:.2f} |\n", k.engine, k.step,
-                   knobs_text(k), 1e3 * run.cost(), run.largest_penetration(), run.mean_penetration(),
-                   run.mean_stress(), share);
+                   knobs_text(k), 1e3 * s.cost, s.largest, s.mean, s.stress, s.corrections);
         if (csv)
             csv->print("{},{},{},{},{},{},{:.4e},{:.4e},{:.4e},{:.4f},{:.4f},{}\n", sample.name, k.engine,
-                       k.step, k.tolerance, k.velocity_iterations, k.position_iterations, run.cost(),
-                       run.largest_penetration(), run.mean_penetration(), run.mean_stress(), share,
-                       run.steps());
+                       k.step, k.tolerance, k.velocity_iterations, k.position_iterations, s.cost, s.largest,
+                       s.mean, s.stress, s.corrections, s.steps);
     }
 }
 
 /// At the target, or at the least penetration that both engines reached.
 void print_ratio(const Sample& sample, const std::vector<Trial>& trials, const char* what,
-                 double (EngineRun::*penetration)() const) {
+                 double Summary::*penetration) {
     const auto front_of = [&](const char* engine) {
         std::vector<WorkPoint> points;
-        for (const Trial& trial : trials)
-            if (trial.run && trial.knobs.engine == engine)
-                points.push_back({(*trial.run.*penetration)(), trial.run->cost()});
+        for (const Trial& trial : trials) {
+            if (trial.knobs.engine != engine) continue;
+            const Summary s = trial.summary();
+            points.push_back({s.*penetration, s.cost});
+        }
         return pareto_front(std::move(points));
     };
     const std::vector<WorkPoint> nscd = front_of("nscd"), box2d = front_of("box2d");
     if (nscd.empty() || box2d.empty()) return;
     const double at = std::max({target, nscd.back().penetration, box2d.back().penetration});
-    const double ratio = cost_at(box2d, at).value() / cost_at(nscd, at).value();
+    const double slow = cost_at(box2d, at).value(), fast = cost_at(nscd, at).value();
     fmt::print(
         "{}: at a {} penetration of {:.2e} d{} box2d takes {:.1f} ms per t0, nscd {:.2f}: ratio {:.1f}\n",
-        sample.name, what, at, at > target ? " (the least that both reach)" : "",
-        1e3 * cost_at(box2d, at).value(), 1e3 * cost_at(nscd, at).value(), ratio);
+        sample.name, what, at, at > target ? " (the least that both reach)" : "", 1e3 * slow, 1e3 * fast,
+        slow / fast);
 }
 
 }  // namespace
@@ -130,11 +162,11 @@ int main(int argc, char** argv) {
             "largest_penetration,mean_penetration,stress,correction_share,steps\n");
     }
     for (const Sample& sample : samples()) {
-        std::vector<Trial> trials = measure(sample);
+        const std::vector<Trial> trials = measure(sample);
         print_table(sample, trials, csv.get());
         fmt::print("\n");
-        print_ratio(sample, trials, "largest", &EngineRun::largest_penetration);
-        print_ratio(sample, trials, "mean", &EngineRun::mean_penetration);
+        print_ratio(sample, trials, "largest", &Summary::largest);
+        print_ratio(sample, trials, "mean", &Summary::mean);
     }
     return 0;
 }
