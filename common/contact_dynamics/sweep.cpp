@@ -144,11 +144,14 @@ double relax_block(ContactRows& rows, const Discs& discs, const Resistance& resi
     const int single = rows.first_single[at(block)];
     if (resistance.friction > 0.0 || resistance.rolling > 0.0)
         return relax(rows, discs, resistance, omega, first, last);
-    const FrictionlessRows batches{rows.i.data(),         rows.j.data(),     rows.direction.data()->data(),
-                                   rows.gap_speed.data(), rows.share.data(), rows.normal.data(),
-                                   discs.v.data()->data()};
-    return std::max(relax_batches(batches, omega, first, single) / omega,
-                    relax_frictionless(rows, discs, omega, single, last));
+    double largest = 0.0;
+    if (first < single) {
+        const FrictionlessRows batches{
+            rows.i.data(),     rows.j.data(),      rows.direction.data()->data(), rows.gap_speed.data(),
+            rows.share.data(), rows.normal.data(), discs.v.data()->data()};
+        largest = relax_batches(batches, omega, first, single) / omega;
+    }
+    return std::max(largest, relax_frictionless(rows, discs, omega, single, last));
 }
 
 double relax(ContactRows& rows, const Discs& discs, const Resistance& resistance, double omega, int first,
