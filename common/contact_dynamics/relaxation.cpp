@@ -149,7 +149,6 @@ Relaxation::Plan Relaxation::after_sweep() {
         full_ = true;
         choose_blocks();
     }
-    plan.full = full_;
     plan.alone = !full_ && chosen_start_.back() < rows_worth_a_wait;
     return plan;
 }

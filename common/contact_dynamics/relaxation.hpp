@@ -23,7 +23,6 @@ class Relaxation {
     /// What is decided after a sweep about the next one.
     struct Plan {
         bool done = false;
-        bool full = true;    ///< over all blocks and seams
         bool alone = false;  ///< too little work to be shared
     };
 
@@ -60,7 +59,7 @@ class Relaxation {
     std::vector<double> overlap_;    ///< [blocks, seams] deepest at the start [m]
     std::vector<int> chosen_;        ///< blocks of this sweep
     std::vector<int> chosen_start_;  ///< [chosen + 1] sum of the rows of the blocks before
-    bool full_ = true;
+    bool full_ = true;               ///< this sweep is over all blocks and seams
     double relaxed_rows_ = 0.0;
     ContactResult result_;
 };

@@ -278,7 +278,11 @@ TEST_F(CommandLine, DivergenceIsExitThreeAndNamesTheGrain) {
                                    (folder / "d").string(), "--set", "loading.0.until_strain=0.9"});
     EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
     EXPECT_NE((run.out + run.err).find("of grain "), std::string::npos) << run.out << run.err;
-    EXPECT_EQ(content(folder / "d" / "history.csv").find("nan"), std::string::npos);
+    std::string history = content(folder / "d" / "history.csv");
+    const std::string not_given = ",nan,nan,nan,nan\n";  // the last columns, which SDEM does not give
+    for (std::size_t at = 0; (at = history.find(not_given)) != std::string::npos;)
+        history.erase(at, not_given.size() - 1);
+    EXPECT_EQ(history.find("nan"), std::string::npos);
     EXPECT_NE(content(folder / "d" / "run.json").find("diverged"), std::string::npos);
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "common/errors.hpp"
 #include "common/observables/observable.hpp"
@@ -384,6 +386,13 @@ Seen run_in_two(const Scenario& scenario, const Packing& packing, int stop_after
     return {run.state(), observer.frames};
 }
 
+/// Bit by bit: columns that a method does not give are nan.
+bool same_rows(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+    });
+}
+
 TEST(TimeLoop, AShearedCellResumesWithTheSameBits) {
     LoadingStage shear;
     shear.kind = LoadingKind::shear;
@@ -393,7 +402,7 @@ TEST(TimeLoop, AShearedCellResumesWithTheSameBits) {
     const Seen straight = run_straight(scenario, cell_of_four());
     for (const int stop_after : {15, 57, 100}) {
         const Seen in_two = run_in_two(scenario, cell_of_four(), stop_after);
-        EXPECT_EQ(in_two.end.history, straight.end.history) << "stopped after " << stop_after;
+        EXPECT_TRUE(same_rows(in_two.end.history, straight.end.history)) << "stopped after " << stop_after;
         EXPECT_EQ(in_two.end.box.tilt, straight.end.box.tilt);
     }
 }
@@ -409,7 +418,7 @@ TEST(TimeLoop, StoppedAnywhereAndResumedGivesTheSameBits) {
     const Seen straight = run_straight(scenario, square_of_four());
     for (const int stop_after : {1, 7, 41, 53, 70, 90}) {
         const Seen in_two = run_in_two(scenario, square_of_four(), stop_after);
-        EXPECT_EQ(in_two.end.history, straight.end.history) << "stopped after " << stop_after;
+        EXPECT_TRUE(same_rows(in_two.end.history, straight.end.history)) << "stopped after " << stop_after;
         EXPECT_EQ(in_two.frames, straight.frames);
         EXPECT_EQ(in_two.end.ended, straight.end.ended);
     }

@@ -3,7 +3,7 @@ plan_compression() {
     plan_isotropic
     local sample law
     for sample in a b; do for law in $laws; do
-        simulate "isotropic-$sample-$law-0.49-1" mollon2022/isotropic_$sample.toml sdem.law=$law random.seed=1 \
+        simulate "isotropic-$sample-$law-0.49-1" sample_$sample/isotropic.toml sdem.law=$law random.seed=1 \
             material.poisson_ratio=0.49 sampling.frame_every=1000 "${coarse[@]}"
     done; done
 }

@@ -3,7 +3,7 @@ plan_drivers() {
     plan_rates
     local nu
     for nu in 0.3 0.5; do
-        simulate "quasi_static-a-$nu" mollon2022/isotropic_a.toml sdem.law=lens_potential sdem.driver=quasi_static \
+        simulate "quasi_static-a-$nu" sample_a/isotropic.toml sdem.law=lens_potential sdem.driver=quasi_static \
             material.poisson_ratio=$nu sampling.frame_every=1000 "${coarse[@]}" loading.0.until_packing_fraction=0.97
     done
 }

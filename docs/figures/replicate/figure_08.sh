@@ -7,7 +7,7 @@ plan_isotropic() {
     for sample in a b; do for law in $laws; do for nu in 0.3 0.5; do for seed in $seeds; do
         local frames=1000
         [ $nu$seed != 0.31 ] || frames=2
-        simulate "isotropic-$sample-$law-$nu-$seed" mollon2022/isotropic_$sample.toml sdem.law=$law random.seed=$seed \
+        simulate "isotropic-$sample-$law-$nu-$seed" sample_$sample/isotropic.toml sdem.law=$law random.seed=$seed \
             material.poisson_ratio=$nu sampling.frame_every=$frames "${coarse[@]}"
     done; done; done; done
 }
@@ -74,7 +74,7 @@ make_figure_08() {
     for law in $laws; do
         numbers+="\`$law\`, phi 0.88 and 0.96: A $(beside_eq69 a $law 0.88), $(beside_eq69 a $law 0.96), B $(beside_eq69 b $law 0.88), $(beside_eq69 b $law 0.96). "
     done
-    row 8 "\`mollon2022/isotropic_{a,b}.toml\`, nu = 0.5" "very satisfactory agreement with Eq. 69" "$numbers" figure_08_a.png figure_08_b.png
+    row 8 "\`sample_{a,b}/isotropic.toml\`, nu = 0.5" "very satisfactory agreement with Eq. 69" "$numbers" figure_08_a.png figure_08_b.png
 }
 
 eq69_at() {

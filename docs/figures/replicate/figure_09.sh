@@ -16,7 +16,7 @@ make_figure_09() {
         rm -r "$made/pictures_$sample"
         row_text+="${sample^^}: phi ${phis_at//,/, }. "
     done
-    row 9 "\`mollon2022/isotropic_{a,b}.toml\`, nu = 0.3" \
+    row 9 "\`sample_{a,b}/isotropic.toml\`, nu = 0.3" \
         "pores close and contacts straighten; at the last stage (stress 0.3) next to no pore is left" \
         "stages at stress 0.01, 0.03, 0.1 (0.3 is not reached before phi 0.99) of \`lens_potential\`: $row_text" figure_09_a.png figure_09_b.png
 }

@@ -56,7 +56,7 @@ make_figure_10() {
             echo
         done; done; done
     } | table square_root
-    row 10 "\`mollon2022/isotropic_{a,b}.toml\`, nu = 0.3 and 0.5" \
+    row 10 "\`sample_{a,b}/isotropic.toml\`, nu = 0.3 and 0.5" \
         "beside MELODY: good prediction of the compressibility, slightly under-estimated below a stress of 0.01 and over-estimated above 0.1; Z good at nu = 0.3, a bit too large at nu = 0.5 and low stress" \
         "Z at stress 0.003 and 0.1, \`lens_potential\`: A, nu 0.3: $(z_at a 0.3 0.003), $(z_at a 0.3 0.1), nu 0.5: $(z_at a 0.5 0.003), $(z_at a 0.5 0.1). phi of \`mollon2022\` - phi of \`lens_potential\`, A, nu 0.3, at stress 0.003, 0.03, 0.2: $(phi_apart 0.003), $(phi_apart 0.03), $(phi_apart 0.2)" \
         figure_10_{a,b}_{phi,z,z_phi}.png

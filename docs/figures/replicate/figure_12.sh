@@ -41,10 +41,10 @@ make_figure_12() {
         done; done
     } | table figure_12
     local a=$made/figure_13_a_lens_potential.csv b=$made/figure_13_b_lens_potential.csv
-    row 12 "\`mollon2022/oedometric_{a,b}.toml\`" "the stress in the direction of loading is slightly larger than the one across; both stay when the wall stops" \
+    row 12 "\`sample_{a,b}/oedometric.toml\`" "the stress in the direction of loading is slightly larger than the one across; both stay when the wall stops" \
         "xx / yy at mean stress 0.01 and 0.1, \`lens_potential\`: A $(quotient %.3f "$(value $a 0.01 stress_xx)" "$(value $a 0.01 stress_yy)"), $(quotient %.3f "$(value $a 0.1 stress_xx)" "$(value $a 0.1 stress_yy)"), B $(quotient %.3f "$(value $b 0.01 stress_xx)" "$(value $b 0.01 stress_yy)"), $(quotient %.3f "$(value $b 0.1 stress_xx)" "$(value $b 0.1 stress_yy)")" \
         figure_12_strain.png figure_12_a.png figure_12_b.png
-    row 13 "\`mollon2022/oedometric_{a,b}.toml\`" "the deviatoric stress grows with the mean stress, perhaps as a power; B resists slightly more than A" \
+    row 13 "\`sample_{a,b}/oedometric.toml\`" "the deviatoric stress grows with the mean stress, perhaps as a power; B resists slightly more than A" \
         "exponent A $(exponent $a $low $high), B $(exponent $b $low $high); deviatoric stress B / A at mean stress 0.03 and 0.1: $(quotient %.2f "$(value $b 0.03 deviatoric_stress)" "$(value $a 0.03 deviatoric_stress)"), $(quotient %.2f "$(value $b 0.1 deviatoric_stress)" "$(value $a 0.1 deviatoric_stress)")" \
         figure_13.png
 }

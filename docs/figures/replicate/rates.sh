@@ -3,7 +3,7 @@ plan_rates() {
     plan_isotropic
     local sample nu
     for sample in a b; do for nu in 0.3 0.5; do
-        simulate "slow-$sample-$nu" mollon2022/isotropic_$sample.toml sdem.law=lens_potential material.poisson_ratio=$nu \
+        simulate "slow-$sample-$nu" sample_$sample/isotropic.toml sdem.law=lens_potential material.poisson_ratio=$nu \
             sampling.frame_every=1000 "${coarse[@]}" loading.0.inertial_number=3e-4 loading.0.until_packing_fraction=0.97
     done; done
 }
