@@ -8,9 +8,9 @@ void ThreadChoice::note(double seconds) {
     if (never_) return;
     spent_ += seconds;
     ++rounds_;
-    const bool hopeless = parallel_ && alone_ >= 0.0 && spent_ > 2.0 * alone_;
-    if (rounds_ < window && !hopeless) return;
-    const double spent = spent_;
+    const bool hopeless = parallel_ && spent_ > 2.0 * alone_ * (rounds_ + first_look);
+    if (rounds_ < (alone_ < 0.0 ? first_look : window) && !hopeless) return;
+    const double spent = spent_ / rounds_;
     rounds_ = 0;
     spent_ = 0.0;
     ++windows_;
@@ -19,8 +19,6 @@ void ThreadChoice::note(double seconds) {
         if (windows_ < wait_) return;
         parallel_ = true;
         windows_ = 0;
-    } else if (alone_ < 0.0) {
-        stop_threads(1);  // only to have something to compare with
     } else if (hopeless || spent >= alone_) {
         stop_threads(pause_);
         pause_ = std::min(2 * pause_, longest_pause);

@@ -9,15 +9,15 @@ namespace softgrain {
 class ThreadChoice {
   public:
     /// most_threads: that may be used at all.
-    explicit ThreadChoice(int most_threads) : parallel_(most_threads > 1), never_(most_threads <= 1) {}
+    explicit ThreadChoice(int most_threads) : never_(most_threads <= 1) {}
 
     /// Whether the next round should use threads.
     bool parallel() const { return parallel_; }
     /// Takes note of how long a round took, done as parallel() said [s].
     void note(double seconds);
 
-    /// Rounds between two decisions.
-    static constexpr int window = 32;
+    /// Rounds between two decisions, and before the first one.
+    static constexpr int window = 32, first_look = 4;
     /// Windows without threads after threads have failed: the first time, and at most.
     static constexpr int first_pause = 2, longest_pause = 256;
     /// Windows with threads before their absence is tried again.
@@ -26,10 +26,11 @@ class ThreadChoice {
   private:
     void stop_threads(int pause);
 
-    bool parallel_, never_;
+    bool parallel_ = false, never_;
     int rounds_ = 0, windows_ = 0;  ///< windows since the last change
     int pause_ = first_pause, wait_ = 1;
-    double spent_ = 0.0, alone_ = -1.0;  ///< time of this window, and of one without threads; < 0 if unknown
+    double spent_ = 0.0,
+           alone_ = -1.0;  ///< time of this window, and of a round without threads; < 0: unknown
 };
 
 }  // namespace softgrain

@@ -29,7 +29,8 @@ TEST(ThreadChoice, OneThreadIsNeverMany) {
 
 TEST(ThreadChoice, ThreadsThatPayOffAreUsed) {
     ThreadChoice choice(2);
-    EXPECT_TRUE(choice.parallel()) << "the first rounds are done with threads";
+    run(choice, ThreadChoice::first_look, 1.0, 0.6);
+    EXPECT_TRUE(choice.parallel());
     EXPECT_GT(run(choice, 100 * ThreadChoice::window, 1.0, 0.6).share, 0.95);
 }
 
@@ -41,7 +42,9 @@ TEST(ThreadChoice, ThreadsThatCostMoreThanTheySaveAreLeft) {
 
 TEST(ThreadChoice, ACrowdedMachineCostsLittle) {
     ThreadChoice choice(2);
-    run(choice, ThreadChoice::window, 1.0, 200.0);  // before there is anything to compare with
+    // From the first round on: half a dozen trials of a round or two, ever further apart.
+    EXPECT_LT(run(choice, 10 * ThreadChoice::window, 1.0, 200.0).time, 3.0 * 10 * ThreadChoice::window);
+    EXPECT_LT(run(choice, 10 * ThreadChoice::window, 1.0, 10.0).time, 1.5 * 10 * ThreadChoice::window);
     const int rounds = 1000 * ThreadChoice::window;
     EXPECT_LT(run(choice, rounds, 1.0, 200.0).time, 1.1 * rounds);
 }
