@@ -18,14 +18,7 @@ namespace {
 // Lists reach this far beyond what can act, in mean disc diameters.
 constexpr double contact_skin = 0.25;
 constexpr double attraction_skin = 0.5;
-// Placing the aggregates: overlaps are removed at rest, then the grains come to rest under their own forces.
-constexpr int most_placing_steps = 300;
-constexpr int most_resting_steps = 1000;
-constexpr double largest_push = 0.05;    // overlap removed in a step [mean disc diameters]
-constexpr double placed_overlap = 1e-3;  // [mean disc diameters]
-constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
-constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
-constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
+constexpr double largest_push = 0.05;  // overlap removed in a step [mean disc diameters]
 constexpr std::size_t discs_worth_threads = 1000;
 constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
 constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
@@ -120,7 +113,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
         contacts_.exclude(bonds_->pairs(), discs(), box_);
     }
     time_step_ = time_step(settings.step);
-    settle(packing.box, time_step(settings.placing_step));
+    place(packing.box, time_step(settings.placing_step));
     if (settings.engine == Engine::box2d)
         box2d_.emplace(Box2dSettings{.velocity_iterations = settings.velocity_iterations,
                                      .position_iterations = settings.position_iterations,
@@ -132,41 +125,6 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
                        discs(), box_);
     potential_at_start_ = inner_energy();
     x_start_ = x_;
-}
-
-void BpmSolver::settle(const Box& box, double h) {
-    const WallMotion at_rest{box, {}};
-    const auto come_to_rest = [&] {
-        std::fill(v_.begin(), v_.end(), Vec2::Zero());
-        std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
-    };
-    const auto misfit = [](const std::string& what) {
-        return InputError("bpm: the aggregates do not fit into the packing: " + what +
-                          "; start from a looser packing (smaller packing.packing_fraction)");
-    };
-    try {
-        int placing = 0;
-        do {
-            step(at_rest, h);
-            come_to_rest();
-        } while (penetration_ > placed_overlap && ++placing < most_placing_steps);
-    } catch (const DivergedError& error) {
-        throw misfit(error.what());
-    }
-    if (penetration_ > misfit_overlap)
-        throw misfit(fmt::format("discs still overlap by {:.3g} of their diameter", penetration_));
-
-    const double unit_speed = std::sqrt(maximum_force_ * diameter_ / mean_of(mass_));
-    const double keep = 1.0 - resting_damping * h * unit_speed / diameter_;
-    for (int k = 0; k < most_resting_steps; ++k) {
-        step(at_rest, h);
-        if (root_mean_square_speed() < resting_speed * unit_speed) break;
-        for (Vec2& v : v_) v *= keep;
-        for (double& w : rim_speed_) w *= keep;
-    }
-    come_to_rest();
-    time_ = 0.0;
-    energy_ = {};
 }
 
 void BpmSolver::advance(const WallMotion& walls, double dt) {
@@ -265,12 +223,6 @@ std::optional<std::string> BpmSolver::outside_validity() const {
         "the rigid discs are jammed solid: {} sweeps of the contact solver leave a residual of {:.3g} disc "
         "diameters (tolerance {:.3g}); the grains cannot be compacted further",
         contact_result_.iterations, residual, settings_.tolerance);
-}
-
-double BpmSolver::root_mean_square_speed() const {
-    double sum = 0.0;
-    for (const Vec2& v : v_) sum += v.squaredNorm();
-    return std::sqrt(sum / static_cast<double>(v_.size()));
 }
 
 }  // namespace softgrain::bpm

@@ -96,7 +96,10 @@ class BpmSolver final : public Solver {
 
     Discs discs() { return {x_, radius_, mass_, grain_, v_, rim_speed_}; }
     std::size_t grains() const { return grain_start_.size() - 1; }
-    void settle(const Box& box, double h);
+    void place(const Box& box, double h);
+    void draw_together(const Box& box, double h);
+    void step_at_rest(const Box& box, double h);
+    void come_to_rest(const Box& box, double h);
     void break_bonds();
     void note_convergence();
     double inner_energy();
@@ -106,7 +109,6 @@ class BpmSolver final : public Solver {
     void account(const WallMotion& walls, double h);
     void watch(double h, double largest_move) const;
     double kinetic_energy() const;
-    double root_mean_square_speed() const;
 
     void view_grains();
     double count_fragments();

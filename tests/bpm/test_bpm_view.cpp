@@ -24,6 +24,25 @@ TEST(BpmView, AreasAtTheStartAreThoseOfThePacking) {
     }
 }
 
+/// No grain is placed with a disc behind one of another grain, where it would be torn off later.
+TEST(BpmView, GrainsArePlacedWhole) {
+    const Packing packing = square_packing(5, 5, 0.0);
+    const BpmSolver solver(scenario_of(250, 2), packing);
+    const auto x = solver.disc_position();
+    const auto radius = solver.disc_radius();
+    double worst = 0.0;
+    for (std::size_t g = 0; g < packing.size(); ++g)
+        for (int i = solver.grain_start()[g]; i < solver.grain_start()[g + 1]; ++i) {
+            double nearest = 1e9;
+            for (int j = solver.grain_start()[g]; j < solver.grain_start()[g + 1]; ++j) {
+                const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+                if (i != j) nearest = std::min(nearest, (x[b] - x[a]).norm() - radius[a] - radius[b]);
+            }
+            worst = std::max(worst, nearest / solver.mean_disc_diameter());
+        }
+    EXPECT_LT(worst, 0.02);
+}
+
 TEST(BpmView, FrameTurnsAndMirrorsTheGrain) {
     Packing packing = square_packing(1, 1, 1.0);
     const BpmSolver plain(scenario_of(30), packing);
