@@ -33,13 +33,16 @@ void BpmSolver::account(const WallMotion& walls, double h) {
         const SolvedContacts solved = solved_contacts();
         const ContactRows& rows = solved.rows;
         for (std::size_t k = 0; k < rows.size(); ++k) {
-            if (rows.tangential[k] == 0.0) continue;
+            const double c = rows.rolling.empty() ? 0.0 : rows.rolling[k];
+            if (rows.tangential[k] == 0.0 && c == 0.0) continue;
             const std::size_t i = at(rows.i[k]);
             const std::size_t j = at(rows.j[k]);
+            const double rim_i = rim_speed_[i] + rim_speed_before_[i];
+            const double rim_j = rim_speed_[j] + rim_speed_before_[j];
             const Vec2 t = perpendicular(rows.direction[k]);
-            const double slip = t.dot(v_[j] + v_before_[j] - v_[i] - v_before_[i]) - rim_speed_[i] -
-                                rim_speed_before_[i] - rim_speed_[j] - rim_speed_before_[j];
-            rubbed -= 0.5 * slip * rows.tangential[k] * solved.reduced_mass(k, mass_);
+            const double slip = t.dot(v_[j] + v_before_[j] - v_[i] - v_before_[i]) - rim_i - rim_j;
+            const double roll = rim_j / radius_[j] - rim_i / radius_[i];
+            rubbed -= 0.5 * (slip * rows.tangential[k] + roll * c) * solved.reduced_mass(k, mass_);
         }
     }
     if (bonds_) energy_.damping += h * bonds_->damping_power(x_, v_before_, v_);

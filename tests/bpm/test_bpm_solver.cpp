@@ -81,6 +81,38 @@ TEST(BpmSolver, EnergyLedgerCloses) {
     }
 }
 
+/// Two discs held together by their attraction spin against each other: their rims do not slip, so only the
+/// resistance to rolling takes energy.
+TEST(BpmSolver, RollingResistanceTakesEnergyAsFriction) {
+    Scenario scenario = scenario_of(2);
+    for (const char* key : {"friction_within", "rolling_resistance"})
+        scenario.method_settings.at("bpm").set(key, 0.5);
+    Packing packing = square_packing(1, 1, 1.0);
+    BpmSolver solver(scenario, packing);
+    Checkpoint checkpoint;
+    solver.save(checkpoint);
+    checkpoint.numbers.at("bpm.rim_speed") = {0.1, -0.1};
+    solver.load(checkpoint);
+    const double start = solver.view(Need::base).energy.kinetic;
+    for (int k = 0; k < 100; ++k) solver.advance({packing.box, {}}, solver.stable_time_step());
+    const EnergyLedger energy = solver.view(Need::base).energy;
+    EXPECT_GT(start, 1e-3);
+    EXPECT_LT(energy.kinetic, 0.01 * start);  // unequal discs go on turning together
+    EXPECT_NEAR(energy.friction + energy.kinetic, start, 1e-4 * start);
+    EXPECT_NEAR(energy.impact, 0.0, 1e-4 * start);
+}
+
+TEST(BpmSolver, RollingResistanceWithoutFrictionDoesNothing) {
+    const Packing packing = square_packing(2, 1, 0.1);
+    Scenario scenario = scenario_of(40);
+    BpmSolver without(scenario, packing);
+    scenario.method_settings.at("bpm").set("rolling_resistance", 0.5);
+    BpmSolver with(scenario, packing);
+    compact(without, packing.box, 0.03, 200);
+    compact(with, packing.box, 0.03, 200);
+    EXPECT_TRUE(std::ranges::equal(with.disc_position(), without.disc_position()));
+}
+
 TEST(BpmSolver, RestartGivesTheSameBits) {
     const Packing packing = square_packing(2, 2, 0.1);
     const Scenario scenario = scenario_of(40, 3, 0.3);
