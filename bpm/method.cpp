@@ -33,21 +33,34 @@ GrainBehaviour behaviour_named(const std::string& name) {
     return GrainBehaviour::plastic;
 }
 
-/// What Box2D does not have, and what only Box2D has, is refused.
-void check_engine(const Settings& settings, Engine engine, GrainBehaviour behaviour) {
-    if (engine == Engine::nscd) {
-        for (const char* key : {"box2d_velocity_iterations", "box2d_position_iterations"})
-            if (settings.has(key))
-                throw InputError(fmt::format("[bpm] {} is for engine = \"box2d\"; leave it out", key));
-        return;
-    }
-    constexpr const char* cure = "; leave it out, or use engine = \"nscd\"";
-    if (behaviour != GrainBehaviour::plastic)
-        throw InputError(fmt::format("[bpm] engine = \"box2d\" has no bonds, as grain = \"{}\" needs{}",
-                                     settings.text("grain"), cure));
-    for (const char* key : {"rolling_resistance", "friction_within"})
+/// Of engine = "box2d": what it does not have.
+void add_box2d_faults(const Settings& settings, std::vector<KeyFault>& faults) {
+    constexpr const char* cure = "leave it out, or use engine = \"nscd\"";
+    if (behaviour_named(settings.text("grain")) != GrainBehaviour::plastic)
+        faults.push_back(
+            {"grain", fmt::format("needs bonds, which engine = \"box2d\" does not have; {}", cure)});
+    for (const std::string_view key : {"rolling_resistance", "friction_within"})
         if (settings.number(key) > 0.0)
-            throw InputError(fmt::format("[bpm] engine = \"box2d\" has no {}{}", key, cure));
+            faults.push_back({key, fmt::format("is not for engine = \"box2d\"; {}", cure)});
+}
+
+std::vector<KeyFault> faults_of(const Settings& settings) {
+    std::vector<KeyFault> faults;
+    const auto only_for = [&](std::string_view key, bool wanted, std::string_view use) {
+        if (settings.has(key) && !wanted)
+            faults.push_back({key, fmt::format("is for {}; leave it out", use)});
+    };
+    const GrainBehaviour behaviour = behaviour_named(settings.text("grain"));
+    const bool box2d = settings.text("engine") == "box2d";
+    if (settings.has("discs_per_grain")) only_for("disc_diameter", false, "grains without discs_per_grain");
+    only_for("bond_stiffness", behaviour != GrainBehaviour::plastic, "grain = \"elastic\" or \"brittle\"");
+    only_for("bond_strength", behaviour == GrainBehaviour::brittle, "grain = \"brittle\"");
+    if (behaviour == GrainBehaviour::brittle && !settings.has("bond_strength"))
+        faults.push_back({"grain", "= \"brittle\" needs bond_strength"});
+    for (const std::string_view key : {"box2d_velocity_iterations", "box2d_position_iterations"})
+        only_for(key, box2d, "engine = \"box2d\"");
+    if (box2d) add_box2d_faults(settings, faults);
+    return faults;
 }
 
 std::span<const KeySpec> keys() {
@@ -92,7 +105,9 @@ std::span<const KeySpec> keys() {
          "largest / smallest disc diameter; above 1.6 the time step follows the smallest disc",
          {1.0, 20.0}},
         {"attraction_stress", KeyType::number, std::monostate{}, "N/m",
-         "F0/<a0>: largest attraction of two discs / mean disc diameter; 0.28 E if not given", positive},
+         "F0/<a0> of plastic grains: largest attraction of two discs / mean disc diameter; 0.28 E if not "
+         "given",
+         positive},
         {"attraction_exponent",
          KeyType::number,
          7.0,
@@ -186,18 +201,13 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 BpmSettings settings_of(const Scenario& scenario) {
     const auto given = scenario.method_settings.find("bpm");
     const Settings settings = given == scenario.method_settings.end() ? Settings(keys()) : given->second;
-    if (settings.has("discs_per_grain") && settings.has("disc_diameter"))
-        throw InputError("[bpm] has both discs_per_grain and disc_diameter; keep one");
+    for (const KeyFault& fault : faults_of(settings))
+        throw InputError(fmt::format("bpm.{} {}", fault.key, fault.message));
     const auto optional = [&](std::string_view key) {
         return settings.has(key) ? std::optional(settings.number(key)) : std::nullopt;
     };
     const GrainBehaviour behaviour = behaviour_named(settings.text("grain"));
-    if (settings.has("bond_strength") != (behaviour == GrainBehaviour::brittle))
-        throw InputError(behaviour == GrainBehaviour::brittle
-                             ? "[bpm] grain = \"brittle\" needs bond_strength"
-                             : "[bpm] bond_strength is for grain = \"brittle\"; leave it out");
     const Engine engine = settings.text("engine") == "box2d" ? Engine::box2d : Engine::nscd;
-    check_engine(settings, engine, behaviour);
     const double step = optional("step").value_or(engine == Engine::nscd ? default_step : default_box2d_step);
     const auto count = [&](std::string_view key, int otherwise) {
         return settings.has(key) ? static_cast<int>(settings.integer(key)) : otherwise;
@@ -234,7 +244,10 @@ BpmSettings settings_of(const Scenario& scenario) {
 const Method& method() {
     static const Method row{"bpm",
                             "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
-                            &keys, &make, "fragments, unless its grains have bonds"};
+                            &keys,
+                            &make,
+                            "fragments, unless its grains have bonds",
+                            &faults_of};
     return row;
 }
 

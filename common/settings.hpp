@@ -38,6 +38,12 @@ struct KeySpec {
     std::vector<std::string_view> choices = {};  ///< for text; empty allows any
 };
 
+/// A value that does not go with the others of its table, and what to do about it.
+struct KeyFault {
+    std::string_view key;
+    std::string message;
+};
+
 /// Validated values of one table, defaults filled in.
 class Settings {
   public:

@@ -59,6 +59,7 @@ struct Method {
     std::span<const KeySpec> (*keys)();  ///< its scenario table
     std::unique_ptr<Solver> (*make)(const Scenario&, const Packing&);
     std::string_view not_given;  ///< history columns it leaves as nan, comma separated
+    std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< of a scenario table, if it looks for any
 };
 
 }  // namespace softgrain

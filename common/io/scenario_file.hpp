@@ -14,6 +14,7 @@ namespace softgrain {
 struct MethodKeys {
     std::string_view name;
     std::span<const KeySpec> keys;
+    std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< between the keys, if it looks for any
 };
 
 /// Reads and checks a scenario. `overrides` are KEY=VALUE ("material.poisson_ratio=0.45",

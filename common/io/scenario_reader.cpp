@@ -120,7 +120,7 @@ class Reader {
         scenario.loading = stages(box);
         scenario.sampling = sampling_of(table("sampling").settings);
         for (const MethodKeys& method : methods_)
-            scenario.method_settings.emplace(method.name, table(method.name).settings);
+            scenario.method_settings.emplace(method.name, method_settings(method));
         return scenario;
     }
 
@@ -144,6 +144,16 @@ class Reader {
         const TableSpec& keys = spec(name);
         if (node != nullptr) report_unknown(*node, std::string(name), keys);
         return check_table(node, std::string(name), keys.keys, errors_);
+    }
+
+    Settings method_settings(const MethodKeys& method) {
+        const CheckedTable own = table(method.name);
+        if (method.faults != nullptr)
+            for (const KeyFault& fault : method.faults(own.settings))
+                if (own.sound({fault.key}))
+                    errors_.add(own.place_of(fault.key), fmt::format("{}.{}", method.name, fault.key),
+                                fault.message);
+        return own.settings;
     }
 
     /// The tables of an array of tables, none if it is not there.

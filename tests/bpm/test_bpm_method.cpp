@@ -41,9 +41,33 @@ TEST(BpmMethod, AHundredDiscsUnlessTheirDiameterIsGiven) {
     EXPECT_EQ(discs_in_grain(settings_of(scenario), 0.05, 0.3), 1);
     EXPECT_THROW(discs_in_grain(settings_of(scenario), 0.049, 0.3), InputError);
     EXPECT_THROW(discs_in_grain(settings_of(scenario), 60.0, 0.3), InputError);
-    settings.set("discs_per_grain", std::int64_t{30});
-    scenario.method_settings.insert_or_assign("bpm", settings);
-    EXPECT_THROW(settings_of(scenario), InputError);
+}
+
+TEST(BpmMethod, KeysThatContradictEachOtherAreNamed) {
+    const auto faults = [](const std::vector<std::pair<const char*, Value>>& given) {
+        Settings settings(method().keys());
+        for (const auto& [key, value] : given) settings.set(key, value);
+        std::string keys;
+        for (const KeyFault& fault : method().faults(settings)) keys += std::string(fault.key) + " ";
+        Scenario scenario;
+        scenario.method_settings.insert_or_assign("bpm", settings);
+        if (keys.empty())
+            EXPECT_NO_THROW(settings_of(scenario));
+        else
+            EXPECT_THROW(settings_of(scenario), InputError) << keys;
+        return keys;
+    };
+    const std::string elastic = "elastic", brittle = "brittle", box2d = "box2d";
+    EXPECT_EQ(faults({}), "");
+    EXPECT_EQ(faults({{"discs_per_grain", std::int64_t{30}}, {"disc_diameter", 0.1}}), "disc_diameter ");
+    EXPECT_EQ(faults({{"bond_stiffness", 1.0}}), "bond_stiffness ");
+    EXPECT_EQ(faults({{"bond_stiffness", 1.0}, {"grain", elastic}}), "");
+    EXPECT_EQ(faults({{"bond_strength", 1.0}, {"grain", elastic}}), "bond_strength ");
+    EXPECT_EQ(faults({{"grain", brittle}}), "grain ");
+    EXPECT_EQ(faults({{"grain", brittle}, {"bond_strength", 1.0}}), "");
+    EXPECT_EQ(faults({{"engine", box2d}, {"grain", elastic}, {"friction_within", 0.1}}),
+              "grain friction_within ");
+    EXPECT_EQ(faults({{"box2d_velocity_iterations", std::int64_t{4}}}), "box2d_velocity_iterations ");
 }
 
 TEST(BpmMethod, DiscsHaveTheDiameterAsked) {

@@ -27,7 +27,13 @@ inline std::span<const MethodKeys> methods() {
     static const std::vector<KeySpec> glue_keys{
         {"strength", KeyType::number, 1.0, "N", "of a bond", positive},
     };
-    static const std::vector<MethodKeys> all{{"spring", spring_keys}, {"glue", glue_keys}};
+    const auto spring_faults = [](const Settings& spring) {
+        std::vector<KeyFault> faults;
+        if (spring.has("cutoff") && spring.text("law") == "hertz")
+            faults.push_back({"cutoff", "is for law = \"linear\"; leave it out"});
+        return faults;
+    };
+    static const std::vector<MethodKeys> all{{"spring", spring_keys, +spring_faults}, {"glue", glue_keys}};
     return all;
 }
 
