@@ -23,10 +23,9 @@ std::string_view name_of(bpm::GrainProperty property) {
 
 std::string curves_csv(const bpm::Calibration& calibration) {
     std::string text = fmt::format(
-        "# One grain between two walls, bpm.attraction_stress = {:.6g} N/m: stress [N/m] of grains of "
-        "several "
+        "# One grain between two walls, bpm.{} = {:.6g} N/m: stress [N/m] of grains of several "
         "seeds\nstrain,mean",
-        calibration.attraction_stress);
+        calibration.key, calibration.value);
     for (const std::uint64_t seed : calibration.check_seeds) text += fmt::format(",seed_{}", seed);
     text += '\n';
     std::size_t rows = calibration.check_curves.front().strain.size();
@@ -65,10 +64,12 @@ int calibrate(const CalibrateRequest& request) {
             "over "
             "strain, sum(F e) / sum(e^2) up to e = {:.2f}; an aggregate is hardly elastic, this is a scale\n",
             name_of(request.property), bpm::elastic_up_to);
-    fmt::print("measured {:.4g} +- {:.2g} F0/<a0> (seeds 1 to {}, standard error; deviation {:.2g})\n",
-               c.measured.mean, c.measured.standard_error(), c.measured.count, c.measured.deviation);
-    fmt::print("checked with seeds {} to {}: {}\n\n[bpm]\nattraction_stress = {:.6g}\n",
-               c.check_seeds.front(), c.check_seeds.back(), reached_text(c), c.attraction_stress);
+    fmt::print("measured {:.4g} +- {:.2g} {} (seeds 1 to {}, standard error; deviation {:.2g})\n",
+               c.measured.mean, c.measured.standard_error(),
+               c.key == "attraction_stress" ? "F0/<a0>" : "bond_stiffness", c.measured.count,
+               c.measured.deviation);
+    fmt::print("checked with seeds {} to {}: {}\n\n[bpm]\n{} = {:.6g}\n", c.check_seeds.front(),
+               c.check_seeds.back(), reached_text(c), c.key, c.value);
     if (c.measured.standard_error() > wide_error * c.measured.mean)
         fmt::print("\nThe grains scatter: --seeds {} or more discs in a grain make this more certain.\n",
                    4 * request.seeds);
@@ -91,10 +92,10 @@ CalibratedScenario with_calibrated_aggregates(const Scenario& scenario, double m
     const double asked = comparable_yield_stress(scenario.material);
     const bpm::Calibration c =
         bpm::calibrate(scenario, mean_radius, bpm::GrainProperty::plateau, asked, seeds_of_comparison);
-    settings.set("attraction_stress", c.attraction_stress);
+    settings.set(c.key, c.value);
     result.scenario.material.yield_stress.reset();  // honoured by the attraction from here on
     result.said = fmt::format(
-        "bpm.attraction_stress {:.4g} N/m: plateau stress of a grain {}, {}", c.attraction_stress,
+        "bpm.{} {:.4g} N/m: plateau stress of a grain {}, {}", c.key, c.value,
         scenario.material.yield_stress ? "= material.yield_stress" : fmt::format("= {} E", yield_per_modulus),
         reached_text(c));
     return result;

@@ -11,10 +11,15 @@
 namespace softgrain::bpm {
 namespace {
 
-Scenario with_attraction(Scenario scenario, double attraction_stress) {
+/// What all forces of a grain scale with.
+std::string_view scaled_key(const BpmSettings& settings) {
+    return settings.behaviour == GrainBehaviour::plastic ? "attraction_stress" : "bond_stiffness";
+}
+
+Scenario with_scale(Scenario scenario, std::string_view key, double value) {
     auto [bpm, is_new] = scenario.method_settings.try_emplace("bpm");
     if (is_new) bpm->second = Settings(method().keys());
-    bpm->second.set("attraction_stress", attraction_stress);
+    bpm->second.set(key, value);
     return scenario;
 }
 
@@ -63,6 +68,14 @@ Calibration calibrate(const Scenario& scenario, double radius, GrainProperty pro
     if (!(asked > 0.0) || !std::isfinite(asked))
         throw InputError("calibrate: the stress or modulus asked for must be > 0");
     if (seeds < 2) throw InputError("calibrate: at least two seeds are needed to know the scatter");
+    const BpmSettings settings = settings_of(scenario);
+    if (settings.behaviour == GrainBehaviour::brittle)
+        throw InputError(
+            "calibrate: brittle grains break at bpm.bond_strength, whatever their stiffness; find the "
+            "modulus "
+            "with --set bpm.grain=elastic and without bond_strength");
+    if (settings.behaviour == GrainBehaviour::elastic && property == GrainProperty::plateau)
+        throw InputError("calibrate: elastic grains have no plateau; ask for --modulus");
     std::vector<std::uint64_t> first(static_cast<std::size_t>(seeds)), others(first.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
         first[k] = k + 1;
@@ -70,16 +83,16 @@ Calibration calibrate(const Scenario& scenario, double radius, GrainProperty pro
     }
     Calibration result;
     result.asked = asked;
-    result.discs = discs_in_grain(settings_of(scenario), radius, radius);
+    result.key = scaled_key(settings);
+    result.discs = discs_in_grain(settings, radius, radius);
     const double trial = asked;  // any will do; this one is of the right size
     result.measured =
-        property_of(compress_grains(with_attraction(scenario, trial), radius, first), property, trial);
+        property_of(compress_grains(with_scale(scenario, result.key, trial), radius, first), property, trial);
     if (!(result.measured.mean > 0.0))
         throw InputError("calibrate: the grains do not resist; use more discs or seeds");
-    result.attraction_stress = asked / result.measured.mean;
+    result.value = asked / result.measured.mean;
     result.check_seeds = others;
-    result.check_curves =
-        compress_grains(with_attraction(scenario, result.attraction_stress), radius, others);
+    result.check_curves = compress_grains(with_scale(scenario, result.key, result.value), radius, others);
     result.reached = property_of(result.check_curves, property, 1.0);
     return result;
 }

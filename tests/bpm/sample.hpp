@@ -1,9 +1,7 @@
 #pragma once
 // Small scenarios for the tests of the bonded-particle method.
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
+#include <optional>
 
 #include "bpm/method.hpp"
 #include "bpm/solver.hpp"
@@ -18,6 +16,18 @@ inline Scenario scenario_of(int discs, std::uint64_t seed = 1, double friction =
     Settings settings(method().keys());
     settings.set("discs_per_grain", std::int64_t{discs});
     settings.set("attraction_stress", 1.0);
+    scenario.method_settings.insert_or_assign("bpm", settings);
+    return scenario;
+}
+
+/// Grains held by bonds of stiffness 1 N/m, that break at `strength` if it is given.
+inline Scenario bonded_scenario_of(int discs, std::optional<double> strength = std::nullopt) {
+    Scenario scenario;
+    Settings settings(method().keys());
+    settings.set("discs_per_grain", std::int64_t{discs});
+    settings.set("grain", std::string(strength ? "brittle" : "elastic"));
+    settings.set("bond_stiffness", 1.0);
+    if (strength) settings.set("bond_strength", *strength);
     scenario.method_settings.insert_or_assign("bpm", settings);
     return scenario;
 }
@@ -38,16 +48,6 @@ inline Packing square_packing(int columns, int rows, double gap) {
 /// Wall motion that closes in on all sides with `speed`.
 inline WallMotion closing(const Box& box, double speed) {
     return {box, {speed, -speed, speed, -speed}};
-}
-
-/// Lowest and highest coordinate of the discs along an axis.
-inline std::pair<double, double> extent(const BpmSolver& solver, int axis) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t d = 0; d < solver.disc_position().size(); ++d) {
-        low = std::min(low, solver.disc_position()[d][axis] - solver.disc_radius()[d]);
-        high = std::max(high, solver.disc_position()[d][axis] + solver.disc_radius()[d]);
-    }
-    return {low, high};
 }
 
 /// Four grains pressed together.

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "bpm/grain_compression.hpp"
 #include "common/errors.hpp"
 #include "sample.hpp"
 
@@ -145,7 +146,7 @@ struct Press {
     Press(Scenario scenario)
         : solver(scenario, wide(square_packing(1, 1, 0.4))), h(solver.stable_time_step()) {
         box = wide(square_packing(1, 1, 0.4)).box;
-        const auto [low, high] = extent(solver, 1);
+        const auto [low, high] = extent_of_discs(solver, 1);
         box.position[2] = low;
         box.position[3] = high;
         height = high - low;
@@ -166,17 +167,8 @@ struct Press {
     }
 };
 
-Scenario bonded(int discs, std::optional<double> strength = std::nullopt) {
-    Scenario scenario = scenario_of(discs);
-    Settings& settings = scenario.method_settings.at("bpm");
-    settings.set("grain", std::string(strength ? "brittle" : "elastic"));
-    settings.set("bond_stiffness", 1.0);
-    if (strength) settings.set("bond_strength", *strength);
-    return scenario;
-}
-
 TEST(BondedGrain, GivesItsEnergyBack) {
-    Press press(bonded(200));
+    Press press(bonded_scenario_of(200));
     press.go_to(0.05, 5e-4);
     const EnergyLedger loaded = press.solver.view(Need::base).energy;
     EXPECT_GT(loaded.elastic, 0.9 * loaded.external_work);
@@ -190,7 +182,7 @@ TEST(BondedGrain, GivesItsEnergyBack) {
 }
 
 TEST(BondedGrain, BreaksIntoFragmentsThatAreCounted) {
-    Press press(bonded(200, 0.002));
+    Press press(bonded_scenario_of(200, 0.002));
     press.go_to(0.15, 5e-3);
     const std::vector<int> fragments = press.solver.bonds()->fragments();
     EXPECT_GT(press.solver.bonds()->broken(), 50U);

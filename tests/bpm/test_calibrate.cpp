@@ -63,7 +63,7 @@ TEST(Calibrate, ReachesWhatWasAsked) {
         const Calibration c = calibrate(scenario, radius, GrainProperty::plateau, 35.0, 4);
         EXPECT_EQ(c.discs, 60);
         EXPECT_EQ(c.check_seeds, (std::vector<std::uint64_t>{5, 6, 7, 8}));
-        EXPECT_DOUBLE_EQ(c.attraction_stress * c.measured.mean, 35.0);
+        EXPECT_DOUBLE_EQ(c.value * c.measured.mean, 35.0);
         // Known from an independent prototype: 0.18 F0/<a0>; grains of 60 discs scatter by 0.03.
         EXPECT_NEAR(c.measured.mean, 0.18, 0.05);
         // Four standard errors of both samples.
@@ -76,13 +76,22 @@ TEST(Calibrate, ReachesWhatWasAsked) {
 
 TEST(Calibrate, ModulusIsThatOfTheSameSecant) {
     const Calibration c = calibrate(scenario_of(60), 1.0, GrainProperty::modulus, 2.0, 2);
-    EXPECT_DOUBLE_EQ(c.attraction_stress * c.measured.mean, 2.0);
+    EXPECT_DOUBLE_EQ(c.value * c.measured.mean, 2.0);
     // Nearly rigid at first, yielding at 0.2 F0/<a0>: F = 0.4 R at a strain of 0.05 is E* = 11 F0/<a0>.
     EXPECT_GT(c.measured.mean, 1.0);
     EXPECT_LT(c.measured.mean, 30.0);
 }
 
+TEST(Calibrate, BondsOfElasticGrainsScaleTheModulus) {
+    const Calibration c = calibrate(bonded_scenario_of(60), 1.0, GrainProperty::modulus, 2.0, 2);
+    EXPECT_EQ(c.key, "bond_stiffness");
+    EXPECT_DOUBLE_EQ(c.value * c.measured.mean, 2.0);
+    EXPECT_NEAR(c.reached.mean, 2.0, 0.5);
+}
+
 TEST(Calibrate, RefusesWhatHasNoAnswer) {
+    EXPECT_THROW(calibrate(bonded_scenario_of(60), 1.0, GrainProperty::plateau, 1.0, 2), InputError);
+    EXPECT_THROW(calibrate(bonded_scenario_of(60, 0.01), 1.0, GrainProperty::modulus, 1.0, 2), InputError);
     EXPECT_THROW(calibrate(scenario_of(60), 1.0, GrainProperty::plateau, 0.0, 3), InputError);
     EXPECT_THROW(
         calibrate(scenario_of(60), 1.0, GrainProperty::plateau, std::numeric_limits<double>::quiet_NaN(), 3),
