@@ -17,20 +17,6 @@ constexpr double interval = 0.005;  // of strain
 constexpr std::size_t least_discs = 10;
 constexpr double side_walls = 3.0;  // distance of the side walls from the centre [radii]
 
-struct Extent {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    double length() const { return high - low; }
-};
-
-Extent extent(const BpmSolver& solver, int axis) {
-    Extent e;
-    for (std::size_t d = 0; d < solver.disc_position().size(); ++d) {
-        e.low = std::min(e.low, solver.disc_position()[d][axis] - solver.disc_radius()[d]);
-        e.high = std::max(e.high, solver.disc_position()[d][axis] + solver.disc_radius()[d]);
-    }
-    return e;
-}
-
 Packing lone_grain(double radius) {
     Packing packing;
     packing.box.position = {-side_walls * radius, side_walls * radius, -2.0 * radius, 2.0 * radius};
@@ -78,6 +64,15 @@ class Measurement {
 
 }  // namespace
 
+Extent extent_of_discs(const BpmSolver& solver, int axis) {
+    Extent e{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t d = 0; d < solver.disc_position().size(); ++d) {
+        e.low = std::min(e.low, solver.disc_position()[d][axis] - solver.disc_radius()[d]);
+        e.high = std::max(e.high, solver.disc_position()[d][axis] + solver.disc_radius()[d]);
+    }
+    return e;
+}
+
 double johnson_modulus(double force, double strain, double radius) {
     // With f = F/(pi E* R) and half contact width a = 2 R sqrt(f): strain = f (2 ln(4R/a) - 1).
     double f = strain / 6.0;
@@ -100,7 +95,7 @@ CompressionCurve compress_grain(const Scenario& scenario, double radius, std::ui
             fmt::format("a grain of {} discs has no plateau; give it at least {} (bpm.discs_per_grain)",
                         discs, least_discs));
 
-    const Extent height_of_grain = extent(solver, 1);
+    const Extent height_of_grain = extent_of_discs(solver, 1);
     const double height = height_of_grain.length();
     Box box = packing.box;
     box.position[2] = height_of_grain.low;
@@ -119,7 +114,7 @@ CompressionCurve compress_grain(const Scenario& scenario, double radius, std::ui
             throw DivergedError(-1, "grain between two walls", solver.view(Need::base).time,
                                 fmt::format("prepared from seed {}: {}", seed, *reason));
         const double force = 0.5 * (solver.wall_force()[3].y() - solver.wall_force()[2].y());
-        measured.add(1.0 - box.height() / height, force, force / extent(solver, 0).length());
+        measured.add(1.0 - box.height() / height, force, force / extent_of_discs(solver, 0).length());
     }
     solver.check_finite();
     CompressionCurve curve;

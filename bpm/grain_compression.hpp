@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bpm/solver.hpp"
 #include "common/scenario.hpp"
 
 namespace softgrain::bpm {
@@ -16,6 +17,13 @@ struct CompressionCurve {
     /// to a strain of 0.05, by Johnson's line contact [N/m].
     double modulus = 0.0;
 };
+
+/// Lowest and highest coordinate of the discs along an axis [m].
+struct Extent {
+    double low, high;
+    double length() const { return high - low; }
+};
+Extent extent_of_discs(const BpmSolver& solver, int axis);
 
 inline constexpr double plateau_begins = 0.05, plateau_ends = 0.30, elastic_up_to = 0.05;
 /// Wall speed / sqrt(F0 d / m): slow enough to change the plateau by less than its scatter.

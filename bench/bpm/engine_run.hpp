@@ -2,15 +2,14 @@
 // One sample under one engine, loaded at constant wall speed and timed in slices.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bpm/grain_compression.hpp"
 #include "bpm/method.hpp"
 #include "bpm/solver.hpp"
 #include "common/packing/make_packing.hpp"
@@ -50,7 +49,7 @@ class EngineRun {
           box_(packing_.box),
           t0_(solver_.stable_time_step() / knobs.step) {
         if (sample.grains == 1) {
-            const auto [low, high] = extent(1);
+            const auto [low, high] = extent_of_discs(solver_, 1);
             box_.position[2] = low;
             box_.position[3] = high;
         }
@@ -112,14 +111,6 @@ class EngineRun {
         scenario.method_settings.insert_or_assign("bpm", settings);
         return scenario;
     }
-    std::pair<double, double> extent(int axis) const {
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (std::size_t d = 0; d < solver_.disc_position().size(); ++d) {
-            low = std::min(low, solver_.disc_position()[d][axis] - solver_.disc_radius()[d]);
-            high = std::max(high, solver_.disc_position()[d][axis] + solver_.disc_radius()[d]);
-        }
-        return {low, high};
-    }
     void advance(double speed, double time) {
         const long steps = std::lround(time * t0_ / solver_.stable_time_step());
         const double dt = time * t0_ / static_cast<double>(steps);
@@ -139,8 +130,7 @@ class EngineRun {
         const double vertical = force[3].y() - force[2].y();
         if (sample_.grains > 1)
             return 0.25 * (vertical / box_.width() + (force[1].x() - force[0].x()) / box_.height());
-        const auto [left, right] = extent(0);
-        return 0.5 * vertical / (right - left);
+        return 0.5 * vertical / extent_of_discs(solver_, 0).length();
     }
 
     Sample sample_;
