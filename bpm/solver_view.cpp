@@ -40,7 +40,8 @@ GrainView BpmSolver::view(Need need) {
     if (bonds_) view.fragments = count_fragments();
     const GrainContactInput after_step{discs(),   centroid_, reference_area_, box_, touch_gap * diameter_,
                                        last_step_};
-    if (box2d_) box2d_->add_near(discs(), box_, touch_gap * diameter_);
+    if (box2d_ && (wants(need, Need::contacts) || wants(need, Need::stress) || wants(need, Need::parts)))
+        box2d_->add_near(discs(), box_, touch_gap * diameter_);
     if (wants(need, Need::contacts) || wants(need, Need::stress)) {
         grain_contacts_ = sum_grain_contacts(solved_contacts(), after_step);
         view.contacts = grain_contacts_.contacts;

@@ -8,26 +8,16 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "common/errors.hpp"
 #include "hand_made_grains.hpp"
+#include "poly_data.hpp"
 #include "viz/render/run_reader.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
 namespace {
 namespace fs = std::filesystem;
-
-double value(vtkDataSetAttributes& data, const char* name, std::size_t tuple, int component = 0) {
-    vtkDataArray* array = data.GetArray(name);
-    if (array == nullptr) throw std::runtime_error(std::string("no array ") + name);
-    return array->GetComponent(static_cast<vtkIdType>(tuple), component);
-}
-
-Vec2 point(vtkPolyData& data, vtkIdType id) {
-    return {data.GetPoint(id)[0], data.GetPoint(id)[1]};
-}
 
 class PartWriterTest : public testing::Test {
   protected:

@@ -32,6 +32,15 @@ class RenderingParts : public Rendering {
         WallWriter(run).observe(view, frame_sample(0));
         PartWriter(run, true).observe(view, frame_sample(0));
     }
+    /// The colour of each part beside its contacts is that of value(part).
+    template <class Value>
+    void expect_colours(const Picture& picture, Value value) const {
+        const PanelOnPicture panel(picture, grains.box);
+        for (std::size_t p = 0; p < parts.position.size(); ++p) {
+            const auto [x, y] = panel.at(grains.box, beside_the_lines(p));
+            EXPECT_TRUE(is_near(picture.pixel(x, y), viridis(value(p)), 4)) << "part " << p;
+        }
+    }
     /// Down to the right, where no contact's line runs.
     Vec2 beside_the_lines(std::size_t part) const {
         return parts.position[part] + 0.57 * parts.radius[part] * Vec2(1.0, -1.0);
@@ -45,11 +54,8 @@ TEST_P(RenderingParts, PartsHaveTheColoursOfTheirValues) {
     if (missing(error)) GTEST_SKIP() << *error;
     ASSERT_FALSE(error) << *error;
     const Picture picture(spec.out / "run_1.png");
+    expect_colours(picture, [&](std::size_t p) { return parts.heat[p]; });
     const PanelOnPicture panel(picture, grains.box);
-    for (std::size_t p = 0; p < parts.position.size(); ++p) {
-        const auto [x, y] = panel.at(grains.box, beside_the_lines(p));
-        EXPECT_TRUE(is_near(picture.pixel(x, y), viridis(parts.heat[p]), 4)) << "part " << p;
-    }
     // The strong contact of the first two parts is black where they meet, between the next two is nothing.
     const auto [x, y] = panel.at(grains.box, 0.5 * (parts.position[0] + parts.position[1]));
     EXPECT_TRUE(is_near(picture.pixel(x, y), black, 10));
@@ -66,11 +72,7 @@ TEST_P(RenderingParts, AFieldOfTheGrainsColoursTheirParts) {
     if (missing(error)) GTEST_SKIP() << *error;
     ASSERT_FALSE(error) << *error;
     const Picture picture(spec.out / "run_1.png");
-    const PanelOnPicture panel(picture, grains.box);
-    for (std::size_t p = 0; p < parts.position.size(); ++p) {
-        const auto [x, y] = panel.at(grains.box, beside_the_lines(p));
-        EXPECT_TRUE(is_near(picture.pixel(x, y), viridis(parts.grain[p] / 8.0), 4)) << "part " << p;
-    }
+    expect_colours(picture, [&](std::size_t p) { return parts.grain[p] / 8.0; });
 }
 
 /// A window of a quarter of the box shows it at twice the scale, and nothing outside its frame.

@@ -17,6 +17,7 @@
 #include "common/errors.hpp"
 #include "common/observables/shape.hpp"
 #include "hand_made_grains.hpp"
+#include "poly_data.hpp"
 #include "viz/writers/vtp_file.hpp"
 #include "viz/writers/writers.hpp"
 
@@ -37,18 +38,12 @@ std::string read_text(const fs::path& path) {
 }
 
 double value(vtkPolyData& data, const char* name, std::size_t cell, int component = 0) {
-    vtkDataArray* array = data.GetCellData()->GetArray(name);
-    if (array == nullptr) throw std::runtime_error(std::string("no array ") + name);
-    return array->GetComponent(static_cast<vtkIdType>(cell), component);
+    return softgrain::value(*data.GetCellData(), name, cell, component);
 }
 
 std::string unit(vtkPolyData& data, const char* name) {
     const char* text = data.GetCellData()->GetArray(name)->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
     return text == nullptr ? "" : text;
-}
-
-Vec2 point(vtkPolyData& data, vtkIdType id) {
-    return {data.GetPoint(id)[0], data.GetPoint(id)[1]};
 }
 
 class WritersTest : public testing::Test {
