@@ -35,33 +35,6 @@ else
     out=${out:-results/replicate}
 fi
 $large && figures+=" ten_thousand"
-$keep || rm -rf "$out"
-runs=$out/runs
-made=$out/figures
-mkdir -p "$runs" "$made"
-rm -f "$out/plan" "$out/overview"
-if $quick; then
-    cp $document "$out/replicability.md"
-    document=$out/replicability.md
-fi
-
 . docs/figures/replicate/shared.sh
-for figure in $figures; do . "docs/figures/replicate/$figure.sh"; done
-for figure in $figures; do "plan_$figure"; done
-run_the_plan
-for figure in $figures; do
-    echo "== $figure"
-    "make_$figure"
-done
-{
-    echo "| figure | scenario | the paper | softgrain | plots |"
-    echo "|---|---|---|---|---|"
-    cat "$out/overview"
-} | table overview
-"$softgrain" --version | sed 's/^/Made with /; s/$/\n/' | table version
-if ! $quick; then
-    rm -rf docs/figures/mollon2022
-    mkdir -p docs/figures/mollon2022/numbers
-    cp "$made"/*.png docs/figures/mollon2022/
-    cp "$made"/*.csv docs/figures/mollon2022/numbers/
-fi
+open_folders
+make_figures "$here"

@@ -21,7 +21,7 @@ done
 method=bpm gallery=nezamabadi2017
 seeds="1 2 3 4 5"
 coarse=()
-figures="single_grain"
+figures="single_grain packing"
 document=docs/bpm_replicability.md
 if $quick; then
     seeds="1 2"
@@ -30,34 +30,6 @@ if $quick; then
 else
     out=${out:-results/replicate_bpm}
 fi
-$keep || rm -rf "$out"
-runs=$out/runs
-made=$out/figures
-mkdir -p "$runs" "$made"
-rm -f "$out/plan" "$out/overview"
-if $quick; then
-    cp $document "$out/bpm_replicability.md"
-    document=$out/bpm_replicability.md
-fi
-
 . docs/figures/replicate/shared.sh
-figures_here=$here/nezamabadi2017
-for figure in $figures; do . "$figures_here/$figure.sh"; done
-for figure in $figures; do "plan_$figure"; done
-run_the_plan
-for figure in $figures; do
-    echo "== $figure"
-    "make_$figure"
-done
-{
-    echo "| figure | scenario | the paper | softgrain | plots |"
-    echo "|---|---|---|---|---|"
-    cat "$out/overview"
-} | table overview
-"$softgrain" --version | sed 's/^/Made with /; s/$/\n/' | table version
-if ! $quick; then
-    rm -rf docs/figures/nezamabadi2017
-    mkdir -p docs/figures/nezamabadi2017/numbers
-    cp "$made"/*.png docs/figures/nezamabadi2017/
-    cp "$made"/*.csv docs/figures/nezamabadi2017/numbers/
-fi
+open_folders
+make_figures "$here/nezamabadi2017"

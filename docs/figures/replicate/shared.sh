@@ -89,3 +89,41 @@ row() {
     for picture in "${@:5}"; do links+="${links:+, }[$picture](figures/$gallery/$picture)"; done
     echo "| $1 | $2 | $3 | $4 | $links |" >>"$out/overview"
 }
+
+# open_folders: $runs and $made in $out, empty unless $keep; a $quick run works on a copy of the document.
+open_folders() {
+    $keep || rm -rf "$out"
+    runs=$out/runs
+    made=$out/figures
+    mkdir -p "$runs" "$made"
+    rm -f "$out/plan" "$out/overview"
+    if $quick; then
+        cp "$document" "$out/"
+        document=$out/$(basename "$document")
+    fi
+}
+
+# make_figures FOLDER: runs the plans of all $figures, whose scripts are in FOLDER, makes them, and publishes them unless $quick.
+make_figures() {
+    figures_here=$1
+    local figure
+    for figure in $figures; do . "$figures_here/$figure.sh"; done
+    for figure in $figures; do "plan_$figure"; done
+    run_the_plan
+    for figure in $figures; do
+        echo "== $figure"
+        "make_$figure"
+    done
+    {
+        echo "| figure | scenario | the paper | softgrain | plots |"
+        echo "|---|---|---|---|---|"
+        cat "$out/overview"
+    } | table overview
+    "$softgrain" --version | sed 's/^/Made with /; s/$/\n/' | table version
+    if ! $quick; then
+        rm -rf "docs/figures/$gallery"
+        mkdir -p "docs/figures/$gallery/numbers"
+        cp "$made"/*.png "docs/figures/$gallery/"
+        cp "$made"/*.csv "docs/figures/$gallery/numbers/"
+    fi
+}
