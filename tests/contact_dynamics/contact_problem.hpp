@@ -51,16 +51,15 @@ inline ContactProblem contact_problem(const DiscCloud& cloud, const WallMotion& 
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<double> offset;
     const auto n = static_cast<int>(cloud.size());
-    // The disc's share of a contact: n . v in the normal row, n turned by +90 degrees in the tangential one;
-    // both rims of a pair run against the second row.
-    const auto touch = [&](int disc, const Vec2& normal, double rim) {
+    // The disc's share of a contact: n . v in the normal row, n turned by +90 degrees in the tangential one,
+    // which its rim runs against.
+    const auto touch = [&](int disc, const Vec2& normal) {
         const int row = static_cast<int>(offset.size());
         entries.emplace_back(row, 3 * disc, normal.x());
         entries.emplace_back(row, 3 * disc + 1, normal.y());
-        if (rim == 0.0) return;
         entries.emplace_back(row + 1, 3 * disc, -normal.y());
         entries.emplace_back(row + 1, 3 * disc + 1, normal.x());
-        entries.emplace_back(row + 1, 3 * disc + 2, rim);
+        entries.emplace_back(row + 1, 3 * disc + 2, -1.0);
     };
     for (int i = 0; i < n; ++i) {
         const auto ui = static_cast<std::size_t>(i);
@@ -69,8 +68,8 @@ inline ContactProblem contact_problem(const DiscCloud& cloud, const WallMotion& 
             const Vec2 line = cloud.x[uj] - cloud.x[ui];
             const double gap = line.norm() - cloud.radius[ui] - cloud.radius[uj];
             if (gap > reach) continue;
-            touch(i, -line.normalized(), -1.0);
-            touch(j, line.normalized(), -1.0);
+            touch(i, -line.normalized());
+            touch(j, line.normalized());
             problem.pairs.emplace_back(i, j);
             problem.friction.push_back(cloud.group[ui] == cloud.group[uj] ? friction_within
                                                                           : friction_between);
@@ -80,7 +79,7 @@ inline ContactProblem contact_problem(const DiscCloud& cloud, const WallMotion& 
         for (int wall = 0; wall < 4; ++wall) {
             const double gap = walls.box.distance(wall, cloud.x[ui]) - cloud.radius[ui];
             if (gap > reach) continue;
-            touch(i, wall_normal(wall), 0.0);
+            touch(i, wall_normal(wall));
             problem.pairs.emplace_back(i, -1 - wall);
             problem.friction.push_back(0.0);
             problem.reduced_mass.push_back(cloud.mass[ui]);
