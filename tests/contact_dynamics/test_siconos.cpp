@@ -88,7 +88,7 @@ TEST_P(Siconos, AgreesOnHundredsOfContacts) {
 
 INSTANTIATE_TEST_SUITE_P(Coefficients, Siconos,
                          testing::Values(std::pair(0.0, 0.0), std::pair(0.0, 0.6), std::pair(0.1, 0.1),
-                                         std::pair(0.3, 0.3), std::pair(0.1, 0.5)),
+                                         std::pair(0.3, 0.3), std::pair(0.1, 0.5), std::pair(0.6, 0.6)),
                          [](const auto& test) {
                              return "Within" + std::to_string(static_cast<int>(100 * test.param.first)) +
                                     "Between" + std::to_string(static_cast<int>(100 * test.param.second));
