@@ -129,8 +129,8 @@ TEST_P(DirectSolutionWithFriction, OfHundredsOfContacts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Coefficients, DirectSolutionWithFriction,
-                         testing::Values(std::pair(0.0, 0.6), std::pair(0.1, 0.1), std::pair(0.3, 0.3),
-                                         std::pair(0.1, 0.5), std::pair(0.6, 0.6)),
+                         testing::Values(std::pair(0.0, 0.6), std::pair(0.3, 0.3), std::pair(0.1, 0.5),
+                                         std::pair(0.6, 0.6)),
                          [](const auto& test) {
                              return "Within" + std::to_string(static_cast<int>(100 * test.param.first)) +
                                     "Between" + std::to_string(static_cast<int>(100 * test.param.second));
