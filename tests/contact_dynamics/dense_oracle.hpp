@@ -1,103 +1,72 @@
 #pragma once
-// Direct solution of one step of frictionless contact: the projection of the free velocities, in the metric
-// of the masses, onto the velocities that keep all gaps open. Least-distance problem by non-negative least
-// squares (Lawson and Hanson 1974, chapter 23); shares no code with the solver under test.
+// Direct solutions of one step of contact. Without friction: the projection of the free velocities, in the
+// metric of the masses, onto the velocities that keep all gaps open, which is unique. With friction: the
+// linear system of a given set of open, sticking and sliding contacts. residuals() says whether an answer
+// obeys the laws.
 #include <Eigen/Dense>
+#include <Eigen/SparseLU>
 #include <cmath>
 #include <vector>
 
-#include "common/box.hpp"
-#include "disc_cloud.hpp"
+#include "contact_problem.hpp"
+#include "least_distance.hpp"
 
 namespace softgrain {
 
-/// min |A x - b| with x >= 0.
-inline Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-    const Eigen::Index n = a.cols();
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-    std::vector<Eigen::Index> passive;
-    const double small = 1e-13 * b.norm();
-    for (int round = 0; round < 10 * n; ++round) {
-        const Eigen::VectorXd gradient = a.transpose() * (b - a * x);
-        Eigen::Index best = -1;
-        for (Eigen::Index k = 0; k < n; ++k) {
-            const bool free = std::find(passive.begin(), passive.end(), k) == passive.end();
-            if (free && gradient[k] > small && (best < 0 || gradient[k] > gradient[best])) best = k;
-        }
-        if (best < 0) break;
-        passive.push_back(best);
-        while (!passive.empty()) {
-            Eigen::MatrixXd part(a.rows(), static_cast<Eigen::Index>(passive.size()));
-            for (std::size_t k = 0; k < passive.size(); ++k)
-                part.col(static_cast<Eigen::Index>(k)) = a.col(passive[k]);
-            const Eigen::VectorXd s = part.completeOrthogonalDecomposition().solve(b);
-            double length = 1.0;
-            for (std::size_t k = 0; k < passive.size(); ++k) {
-                const double now = x[passive[k]], next = s[static_cast<Eigen::Index>(k)];
-                if (next <= 0.0) length = std::min(length, now / (now - next));
-            }
-            std::vector<Eigen::Index> kept;
-            for (std::size_t k = 0; k < passive.size(); ++k) {
-                double& now = x[passive[k]];
-                now += length * (s[static_cast<Eigen::Index>(k)] - now);
-                if (now > 1e-15)
-                    kept.push_back(passive[k]);
-                else
-                    now = 0.0;
-            }
-            passive.swap(kept);
-            if (length == 1.0) break;
-        }
-    }
-    return x;
+/// Impulses of a problem, whatever its friction, as if there were none.
+inline Eigen::VectorXd direct_frictionless_impulses(const ContactProblem& problem) {
+    // y = M^(1/2) (u - u_free): min |y| with J_n M^(-1/2) y >= -q_n.
+    ContactProblem::Matrix normals(problem.size(), 2 * problem.size());
+    for (Eigen::Index k = 0; k < problem.size(); ++k) normals.insert(k, 2 * k) = 1.0;
+    const ContactProblem::Matrix w =
+        normals * problem.delassus() * ContactProblem::Matrix(normals.transpose());
+    const Eigen::VectorXd g = -(normals * problem.free_local());
+    const std::vector<Eigen::Index> active = active_rows(w, g, problem.u_free.size() / 3 * 2);
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(2 * problem.size());
+    if (active.empty()) return r;
+    const auto count = static_cast<Eigen::Index>(active.size());
+    ContactProblem::Matrix chosen(count, problem.size());
+    for (Eigen::Index k = 0; k < count; ++k) chosen.insert(k, active[static_cast<std::size_t>(k)]) = 1.0;
+    const Eigen::MatrixXd block(chosen * w * ContactProblem::Matrix(chosen.transpose()));
+    const Eigen::VectorXd bound = chosen * g;
+    const Eigen::LLT<Eigen::MatrixXd> factor(block);
+    Eigen::VectorXd p = factor.solve(bound);
+    p += factor.solve(bound - block * p);  // one step of refinement
+    for (Eigen::Index k = 0; k < count; ++k) r[2 * active[static_cast<std::size_t>(k)]] = p[k];
+    return r;
 }
 
-/// Velocities after contact of all pairs and all walls, dense.
-inline std::vector<Vec2> dense_contact_velocities(const DiscCloud& cloud, const WallMotion& walls, double h) {
-    const auto n = static_cast<Eigen::Index>(cloud.size());
-    std::vector<Eigen::VectorXd> rows;
-    std::vector<double> bounds;  // row . v >= bound
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const auto ui = static_cast<std::size_t>(i);
-        for (Eigen::Index j = i + 1; j < n; ++j) {
-            const auto uj = static_cast<std::size_t>(j);
-            const Vec2 line = cloud.x[uj] - cloud.x[ui];
-            const double gap = line.norm() - cloud.radius[ui] - cloud.radius[uj];
-            if (gap > 1.0) continue;
-            Eigen::VectorXd row = Eigen::VectorXd::Zero(2 * n);
-            row.segment<2>(2 * j) = line.normalized();
-            row.segment<2>(2 * i) = -line.normalized();
-            rows.push_back(row);
-            bounds.push_back(-gap / h);
+/// Impulses with which the active contacts of `guess` keep their gap closed, stick if they are inside their
+/// cone by more than `noise` [m/s], and else slide as they do there.
+inline Eigen::VectorXd direct_frictional_impulses(const ContactProblem& problem, const Eigen::VectorXd& guess,
+                                                  double noise) {
+    std::vector<Eigen::Triplet<double>> chosen, impulses;  // equations; impulses r by their unknowns
+    int count = 0;
+    for (Eigen::Index k = 0; k < problem.size(); ++k) {
+        const auto contact = static_cast<std::size_t>(k);
+        const int normal = static_cast<int>(2 * k), tangential = normal + 1;
+        const double mu = problem.friction[contact], least = noise * problem.reduced_mass[contact];
+        if (guess[normal] < least) continue;
+        chosen.emplace_back(count, normal, 1.0);
+        impulses.emplace_back(normal, count, 1.0);
+        if (mu * guess[normal] - std::abs(guess[tangential]) <= least) {
+            impulses.emplace_back(tangential, count++, std::copysign(mu, guess[tangential]));
+            continue;
         }
-        for (int wall = 0; wall < 4; ++wall) {
-            Eigen::VectorXd row = Eigen::VectorXd::Zero(2 * n);
-            row.segment<2>(2 * i) = wall_normal(wall);
-            rows.push_back(row);
-            bounds.push_back(-(walls.box.distance(wall, cloud.x[ui]) - cloud.radius[ui]) / h +
-                             wall_normal(wall).dot(walls.velocity_of(wall)));
-        }
+        ++count;
+        chosen.emplace_back(count, tangential, 1.0);
+        impulses.emplace_back(tangential, count++, 1.0);
     }
-    // y = M^(1/2) (v - v_free): min |y| with G y >= g.
-    const auto m = static_cast<Eigen::Index>(rows.size());
-    Eigen::VectorXd root_mass(2 * n), v_free(2 * n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        root_mass.segment<2>(2 * i).setConstant(std::sqrt(cloud.mass[static_cast<std::size_t>(i)]));
-        v_free.segment<2>(2 * i) = cloud.v[static_cast<std::size_t>(i)];
-    }
-    Eigen::MatrixXd e(2 * n + 1, m);
-    for (Eigen::Index k = 0; k < m; ++k) {
-        const Eigen::VectorXd& row = rows[static_cast<std::size_t>(k)];
-        e.col(k).head(2 * n) = row.cwiseQuotient(root_mass);
-        e(2 * n, k) = bounds[static_cast<std::size_t>(k)] - row.dot(v_free);
-    }
-    Eigen::VectorXd f = Eigen::VectorXd::Zero(2 * n + 1);
-    f[2 * n] = 1.0;
-    const Eigen::VectorXd r = e * non_negative_least_squares(e, f) - f;
-    const Eigen::VectorXd v = v_free - (r.head(2 * n) / r[2 * n]).cwiseQuotient(root_mass);
-    std::vector<Vec2> result;
-    for (Eigen::Index i = 0; i < n; ++i) result.emplace_back(v.segment<2>(2 * i));
-    return result;
+    ContactProblem::Matrix equation(count, guess.size()), impulse(guess.size(), count);
+    equation.setFromTriplets(chosen.begin(), chosen.end());
+    impulse.setFromTriplets(impulses.begin(), impulses.end());
+    const ContactProblem::Matrix system = equation * problem.delassus() * impulse;
+    const Eigen::VectorXd right = -(equation * problem.free_local());
+    const Eigen::SparseLU<ContactProblem::Matrix> factor(system);
+    if (factor.info() != Eigen::Success) return Eigen::VectorXd::Zero(guess.size());
+    Eigen::VectorXd p = factor.solve(right);
+    p += factor.solve(right - system * p);  // one step of refinement
+    return impulse * p;
 }
 
 }  // namespace softgrain

@@ -1,8 +1,11 @@
 #pragma once
 // Discs with random velocities, for the tests of contact dynamics.
+#include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "common/box.hpp"
 #include "common/contact_dynamics/discs.hpp"
 
 namespace softgrain {
@@ -33,5 +36,27 @@ inline DiscCloud disc_cloud(unsigned seed, int columns, int rows, int groups_acr
         }
     return cloud;
 }
+
+/// Discs that flow together between four walls that close in, so that a step of 0.1 brings most neighbours
+/// into contact. Every disc spins.
+struct SqueezedCloud {
+    static constexpr double h = 0.1;
+    DiscCloud cloud;
+    WallMotion walls;
+
+    SqueezedCloud(unsigned seed, int columns, int rows, int groups_across)
+        : cloud(disc_cloud(seed, columns, rows, groups_across)),
+          walls{{{-0.48, columns + 0.05, -0.48, 0.87 * rows - 0.3}}, {1.0, -1.1, 0.9, -0.8}} {
+        for (std::size_t d = 0; d < cloud.size(); ++d)
+            cloud.rim_speed[d] = 0.3 * std::sin(3.0 * static_cast<double>(d));
+        const std::array<double, 4>& at = walls.box.position;
+        const Vec2 middle(0.5 * (at[0] + at[1]), 0.5 * (at[2] + at[3]));
+        for (std::size_t d = 0; d < cloud.size(); ++d) cloud.v[d] -= 0.1 * (cloud.x[d] - middle);
+    }
+    void advance() {
+        for (std::size_t d = 0; d < cloud.size(); ++d) cloud.x[d] += h * cloud.v[d];
+        walls.box = walls.after(h);
+    }
+};
 
 }  // namespace softgrain
