@@ -1,14 +1,18 @@
 #include "bpm/outline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "common/gather.hpp"
 
 namespace softgrain::bpm {
 namespace {
 
+constexpr std::size_t worth_threads = 5000;  // discs
+constexpr std::size_t blocks = 32;
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double polygon_step = std::numbers::pi / 9.0;  // largest angle between two corners
 
@@ -87,24 +91,32 @@ Outline::Outline(std::span<const Vec2> x, std::span<const double> radius, double
     : x_(x), radius_(radius), rho_(rho) {
     PairsOfGrain near;
     near.build(pairs, x.size());
-    arc_start_.reserve(x.size() + 1);
-    arc_start_.push_back(0);
-    std::vector<Cover> covers;
-    for (std::size_t d = 0; d < x.size(); ++d) {
-        covers.clear();
-        bool hidden = false;
-        for (const PairsOfGrain::Entry& entry : near.of(d)) {
-            const Pair& pair = pairs[at(entry.pair)];
-            const int other = entry.second ? pair.i : pair.j;
-            Cover cover{};
-            if (!cover_of(x[d], radius[d] + rho, x[at(other)], radius[at(other)] + rho, other, cover))
-                continue;
-            hidden = hidden || cover.end - cover.begin >= full_turn;
-            covers.push_back(cover);
+    // Blocks of discs by threads, joined in their order.
+    const std::size_t n = x.size();
+    arc_start_.assign(n + 1, 0);
+    std::array<std::vector<ExposedArc>, blocks> arcs;
+#pragma omp parallel for schedule(dynamic) if (n > worth_threads)
+    for (std::size_t b = 0; b < blocks; ++b) {
+        std::vector<Cover> covers;
+        for (std::size_t d = b * n / blocks; d < (b + 1) * n / blocks; ++d) {
+            covers.clear();
+            bool hidden = false;
+            for (const PairsOfGrain::Entry& entry : near.of(d)) {
+                const Pair& pair = pairs[at(entry.pair)];
+                const int other = entry.second ? pair.i : pair.j;
+                Cover cover{};
+                if (!cover_of(x[d], radius[d] + rho, x[at(other)], radius[at(other)] + rho, other, cover))
+                    continue;
+                hidden = hidden || cover.end - cover.begin >= full_turn;
+                covers.push_back(cover);
+            }
+            const std::size_t before = arcs[b].size();
+            if (!hidden) append_exposed(static_cast<int>(d), covers, arcs[b]);
+            arc_start_[d + 1] = static_cast<int>(arcs[b].size() - before);
         }
-        if (!hidden) append_exposed(static_cast<int>(d), covers, arcs_);
-        arc_start_.push_back(static_cast<int>(arcs_.size()));
     }
+    std::partial_sum(arc_start_.begin(), arc_start_.end(), arc_start_.begin());
+    for (const std::vector<ExposedArc>& block : arcs) arcs_.insert(arcs_.end(), block.begin(), block.end());
 }
 
 Outline::Fillet Outline::fillet_after(const ExposedArc& arc) const {

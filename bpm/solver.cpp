@@ -171,9 +171,12 @@ void BpmSolver::step(const WallMotion& walls, double h) {
         bonds_->forces(x_, v_, force_, threads_.parallel());
     else
         attraction_.forces(x_, time_, force_, true, threads_.parallel());
-    v_before_ = v_;
-    rim_speed_before_ = rim_speed_;
-    for (std::size_t d = 0; d < x_.size(); ++d) v_[d] += h / mass_[d] * force_[d];
+#pragma omp parallel for schedule(static) if (threads_.parallel())
+    for (std::size_t d = 0; d < x_.size(); ++d) {
+        v_before_[d] = v_[d];
+        v_[d] += h / mass_[d] * force_[d];
+    }
+    if (rubs_) rim_speed_before_ = rim_speed_;
     if (box2d_) {
         x_before_ = x_;
         contact_result_ = box2d_->solve(discs(), walls, h, x_);
@@ -181,6 +184,7 @@ void BpmSolver::step(const WallMotion& walls, double h) {
     } else {
         contact_result_ = contacts_.solve(discs(), walls, h, threads_.parallel());
         watch(h, diameter_);
+#pragma omp parallel for schedule(static) if (threads_.parallel())
         for (std::size_t d = 0; d < x_.size(); ++d) x_[d] += h * v_[d];
     }
     time_ += h;
@@ -198,17 +202,20 @@ void BpmSolver::step(const WallMotion& walls, double h) {
 }
 
 void BpmSolver::watch(double h, double largest_move) const {
-    for (std::size_t d = 0; d < v_.size(); ++d) {
-        const double moved = h * v_[d].norm();
-        if (moved <= largest_move) continue;
-        throw DivergedError(
-            grain_[d], "disc velocity", time_,
-            std::isfinite(moved)
-                ? fmt::format("a disc moves {:.3g} diameters in one step; load more slowly or use a "
-                              "smaller bpm.step",
-                              moved / diameter_)
-                : std::string("not finite; load more slowly or use a smaller bpm.step"));
-    }
+    const double limit = largest_move * largest_move;
+    std::size_t bad = v_.size();
+#pragma omp parallel for schedule(static) reduction(min : bad) if (threads_.parallel())
+    for (std::size_t d = 0; d < v_.size(); ++d)
+        if (!(h * h * v_[d].squaredNorm() <= limit)) bad = std::min(bad, d);
+    if (bad == v_.size()) return;
+    const double moved = h * v_[bad].norm();
+    throw DivergedError(
+        grain_[bad], "disc velocity", time_,
+        std::isfinite(moved)
+            ? fmt::format(
+                  "a disc moves {:.3g} diameters in one step; load more slowly or use a smaller bpm.step",
+                  moved / diameter_)
+            : std::string("not finite; load more slowly or use a smaller bpm.step"));
 }
 
 std::optional<std::string> BpmSolver::outside_validity() const {

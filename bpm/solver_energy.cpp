@@ -1,5 +1,6 @@
 // The energy ledger of the solver.
 #include "bpm/solver.hpp"
+#include "common/block_sum.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -14,13 +15,15 @@ void BpmSolver::account(const WallMotion& walls, double h) {
     double work = 0.0;
     for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));
     // The contact impulses p = m (v+ - v-) - h F gave the discs the kinetic energy p.(v- + v+)/2.
-    double given = 0.0;
-    for (std::size_t d = 0; d < x_.size(); ++d) {
+    double given = block_sum(x_.size(), threads_.parallel(), [&](std::size_t d) {
         const Vec2 impulse = mass_[d] * (v_[d] - v_before_[d]) - h * force_[d];
-        given += 0.5 * impulse.dot(v_[d] + v_before_[d]);
-        given +=
-            0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) * (rim_speed_[d] + rim_speed_before_[d]);
-    }
+        return 0.5 * impulse.dot(v_[d] + v_before_[d]);
+    });
+    if (rubs_)
+        given += block_sum(x_.size(), threads_.parallel(), [&](std::size_t d) {
+            return 0.25 * mass_[d] * (rim_speed_[d] - rim_speed_before_[d]) *
+                   (rim_speed_[d] + rim_speed_before_[d]);
+        });
     if (box2d_) {
         double corrections = 0.0;
         for (std::size_t d = 0; d < x_.size(); ++d)

@@ -23,17 +23,18 @@ ContactDynamics::ContactDynamics(const ContactSettings& settings) : settings_(se
 
 ContactResult ContactDynamics::solve(const Discs& discs, const WallMotion& walls, double h, bool threads) {
     if (discs.x.empty()) return {.converged = true};
-    if (stale(discs, walls, h)) rebuild(discs, walls.box);
+    if (stale(discs, walls, h, threads)) rebuild(discs, walls.box);
     if (last_step_ > 0.0 && last_step_ != h) scale_impulses(h / last_step_);
     last_step_ = h;
     return Relaxation(rows_, wall_rows_, blocks_, discs, walls, h, settings_).run(threads);
 }
 
-bool ContactDynamics::stale(const Discs& discs, const WallMotion& walls, double h) const {
-    if (candidates_.built_at().size() != discs.x.size()) return true;
+bool ContactDynamics::stale(const Discs& discs, const WallMotion& walls, double h, bool threads) const {
+    if (built_at_.size() != discs.x.size()) return true;
     double moved = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : moved) if (threads)
     for (std::size_t d = 0; d < discs.x.size(); ++d)
-        moved = std::max(moved, (discs.x[d] + h * discs.v[d] - candidates_.built_at()[d]).squaredNorm());
+        moved = std::max(moved, (discs.x[d] + h * discs.v[d] - built_at_[d]).squaredNorm());
     moved = std::sqrt(moved);
     double wall_moved = 0.0;
     const Box after = walls.after(h);
@@ -44,11 +45,10 @@ bool ContactDynamics::stale(const Discs& discs, const WallMotion& walls, double 
 
 void ContactDynamics::exclude(std::span<const Pair> pairs, const Discs& discs, const Box& box) {
     excluded_.assign(pairs.begin(), pairs.end());
-    if (!candidates_.built_at().empty()) rebuild(discs, box);
+    if (!built_at_.empty()) rebuild(discs, box);
 }
 
 void ContactDynamics::rebuild(const Discs& discs, const Box& box) {
-    candidates_.build(discs.x, discs.radius, settings_.skin);
     const ContactRows old_rows = std::move(rows_);
     const WallRows old_walls = std::move(wall_rows_);
     list_candidates(discs, box);
@@ -58,10 +58,13 @@ void ContactDynamics::rebuild(const Discs& discs, const Box& box) {
 }
 
 void ContactDynamics::list_candidates(const Discs& discs, const Box& box) {
+    built_at_.assign(discs.x.begin(), discs.x.end());
     built_box_ = box;
+    NeighborList candidates;  // not kept: it would take more memory than the rows
+    candidates.build(discs.x, discs.radius, settings_.skin);
     blocks_ = ContactBlocks(discs, settings_.block_discs);
     std::vector<Pair> pairs;
-    std::set_difference(candidates_.pairs().begin(), candidates_.pairs().end(), excluded_.begin(),
+    std::set_difference(candidates.pairs().begin(), candidates.pairs().end(), excluded_.begin(),
                         excluded_.end(), std::back_inserter(pairs));
     rows_ =
         make_contact_rows(pairs, discs, blocks_,
@@ -76,7 +79,7 @@ void ContactDynamics::scale_impulses(double factor) {
 }
 
 void ContactDynamics::save(Checkpoint& to, const std::string& prefix) const {
-    to.put(prefix + "built_at", candidates_.built_at());
+    to.put(prefix + "built_at", std::span<const Vec2>(built_at_));
     to.put(prefix + "built_box", std::span<const double>(built_box_.position));
     to.put(prefix + "last_step", last_step_);
     to.put(prefix + "direction", std::span<const Vec2>(rows_.direction));
@@ -94,7 +97,7 @@ void ContactDynamics::load(const Checkpoint& from, const std::string& prefix, co
     from.get(prefix + "built_at", built_at);
     from.get(prefix + "built_box", box);
     last_step_ = from.number(prefix + "last_step");
-    candidates_ = NeighborList();
+    built_at_.clear();
     rows_ = ContactRows();
     wall_rows_ = WallRows();
     if (built_at.empty()) return;
@@ -105,7 +108,6 @@ void ContactDynamics::load(const Checkpoint& from, const std::string& prefix, co
     then.x = built_at;
     Box built_box;
     std::copy(box.begin(), box.end(), built_box.position.begin());
-    candidates_.build(then.x, then.radius, settings_.skin);
     list_candidates(then, built_box);
     const auto restore = [&](const char* name, auto& column) {
         const std::size_t size = column.size();

@@ -61,13 +61,13 @@ class ContactDynamics {
     void load(const Checkpoint& from, const std::string& prefix, const Discs& discs);
 
   private:
-    bool stale(const Discs& discs, const WallMotion& walls, double h) const;
+    bool stale(const Discs& discs, const WallMotion& walls, double h, bool threads) const;
     void rebuild(const Discs& discs, const Box& box);
     void list_candidates(const Discs& discs, const Box& box);
     void scale_impulses(double factor);
 
     ContactSettings settings_;
-    NeighborList candidates_;
+    std::vector<Vec2> built_at_;  ///< positions of the last rebuild
     std::vector<Pair> excluded_;
     ContactBlocks blocks_;
     Box built_box_;

@@ -29,8 +29,8 @@ inline std::span<const MethodKeys> methods() {
     };
     const auto spring_faults = [](const Settings& spring) {
         std::vector<KeyFault> faults;
-        if (spring.has("cutoff") && spring.text("law") == "hertz")
-            faults.push_back({"cutoff", "is for law = \"linear\"; leave it out"});
+        if (spring.has("cutoff") && spring.text("law") == "linear")
+            faults.push_back({"cutoff", "is for law = \"hertz\"; leave it out"});
         return faults;
     };
     static const std::vector<MethodKeys> all{{"spring", spring_keys, +spring_faults}, {"glue", glue_keys}};

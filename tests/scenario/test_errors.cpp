@@ -53,8 +53,8 @@ const std::vector<Case> values{
        "s.toml:2:7: spring.law must be one of linear, hertz, got \"herz\" (did you mean 'hertz'?)"),
     in("[spring]\niterations = 1e3",
        "s.toml:2:14: spring.iterations must be an integer, got the number 1000"),
-    in("[spring]\nlaw = \"hertz\"\ncutoff = 0.1",
-       "s.toml:3:10: spring.cutoff is for law = \"linear\"; leave it out"),
+    in("[spring]\nlaw = \"linear\"\ncutoff = 0.1",
+       "s.toml:3:10: spring.cutoff is for law = \"hertz\"; leave it out"),
     in("title = \"caf\u00e9\" \n[material]\ndensity = 0", "s.toml:3:11: material.density must be > 0, got 0"),
 };
 
