@@ -87,7 +87,7 @@ void append_exposed(int disc, std::vector<Cover>& covers, std::vector<ExposedArc
 }  // namespace
 
 Outline::Outline(std::span<const Vec2> x, std::span<const double> radius, double rho,
-                 std::span<const Pair> pairs)
+                 std::span<const Pair> pairs, const Outline* apart)
     : x_(x), radius_(radius), rho_(rho) {
     PairsOfGrain near;
     near.build(pairs, x.size());
@@ -99,6 +99,7 @@ Outline::Outline(std::span<const Vec2> x, std::span<const double> radius, double
     for (std::size_t b = 0; b < blocks; ++b) {
         std::vector<Cover> covers;
         for (std::size_t d = b * n / blocks; d < (b + 1) * n / blocks; ++d) {
+            if (apart != nullptr && apart->arc_start_[d] == apart->arc_start_[d + 1]) continue;
             covers.clear();
             bool hidden = false;
             for (const PairsOfGrain::Entry& entry : near.of(d)) {

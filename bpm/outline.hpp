@@ -23,8 +23,10 @@ struct ExposedArc {
 /// rho)^2.
 class Outline {
   public:
-    /// x, radius [n] [m]; pairs: sorted, at least all with a gap < 2 rho that are to be joined.
-    Outline(std::span<const Vec2> x, std::span<const double> radius, double rho, std::span<const Pair> pairs);
+    /// x, radius [n] [m]; pairs: sorted, at least all with a gap < 2 rho that are to be joined. `apart`: the
+    /// outline by some of these pairs, if it is there already; discs that it hides are not looked at again.
+    Outline(std::span<const Vec2> x, std::span<const double> radius, double rho, std::span<const Pair> pairs,
+            const Outline* apart = nullptr);
 
     std::span<const ExposedArc> arcs() const { return arcs_; }
 

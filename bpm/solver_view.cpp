@@ -87,7 +87,7 @@ void BpmSolver::view_outlines(Need need, GrainView& view) {
         for (std::size_t g = 0; g < grains(); ++g)
             area_[g] = of_grains.area(grain_start_[g], grain_start_[g + 1]);
         view.area = area_;
-        view.covered_area = Outline(x_, radius_, rho, near.pairs()).area();
+        view.covered_area = Outline(x_, radius_, rho, near.pairs(), &of_grains).area();
     }
     if (wants(need, Need::outlines)) {
         outline_offset_.assign(1, 0);

@@ -223,5 +223,29 @@ TEST(Outline, CountsCrevicesThatTheAlphaComplexDoesNot) {
     EXPECT_LT(area / complex.area(), 1.02);
 }
 
+/// Two grains pushed into each other: the outline of both together, with and without that of each.
+TEST(Outline, DiscsHiddenInTheirGrainNeedNoSecondLook) {
+    const Aggregate grain = prepare_aggregate({.discs = 60, .seed = 3});
+    std::vector<Vec2> x = grain.x;
+    std::vector<double> radius = grain.radius;
+    for (std::size_t d = 0; d < 60; ++d) {
+        x.push_back(grain.x[d] + Vec2{1.8, 0.2});
+        radius.push_back(grain.radius[d]);
+    }
+    std::vector<Pair> within;
+    for (const Pair& pair : all_pairs(120))
+        if ((pair.i < 60) == (pair.j < 60)) within.push_back(pair);
+    const double rho = 0.05;
+    const Outline apart(x, radius, rho, within);
+    const Outline both(x, radius, rho, all_pairs(120)), quick(x, radius, rho, all_pairs(120), &apart);
+    EXPECT_LT(both.area(), apart.area(0, 60) + apart.area(60, 120) - 0.01);
+    ASSERT_EQ(quick.arcs().size(), both.arcs().size());
+    for (std::size_t k = 0; k < both.arcs().size(); ++k) {
+        EXPECT_EQ(quick.arcs()[k].disc, both.arcs()[k].disc);
+        EXPECT_EQ(quick.arcs()[k].begin, both.arcs()[k].begin);
+        EXPECT_EQ(quick.arcs()[k].end, both.arcs()[k].end);
+    }
+}
+
 }  // namespace
 }  // namespace softgrain::bpm
