@@ -1,10 +1,10 @@
-# Figs. 8 to 11: 300 grains in uniaxial compaction, three seeds; half the rate, half the tolerance, friction.
+# Figs. 8 to 11: 300 grains in uniaxial compaction, three seeds; half the rate and half the tolerance (to phi 0.9), friction.
 packing_seeds="1 2 3"
 packing_variants="slow fine friction"
 declare -A variant_of=([slow]="half the rate" [fine]="half the tolerance" [friction]="mu = 0.5")
 packing_phis=$(seq -s, -f %.3f 0.66 0.005 0.98)
 packing_strains=$(seq -s, -f %.3f 0.0 0.005 0.42)
-packing_strains_after=$(seq -s, -f %.3f 0.0 0.005 0.22)
+packing_strains_after=$(seq -s, -f %.3f 0.005 0.005 0.22)
 
 plan_packing() {
     local settings=() half=31 seed
@@ -12,8 +12,9 @@ plan_packing() {
     for seed in $packing_seeds; do
         simulate packing-$seed nezamabadi2017/packing.toml random.seed=$seed "${settings[@]}"
     done
-    simulate packing-slow nezamabadi2017/packing.toml "${settings[@]}" loading.0.strain_rate=$half
-    simulate packing-fine nezamabadi2017/packing.toml "${settings[@]}" bpm.tolerance=2.5e-4
+    local briefly=loading.0.until_packing_fraction=0.9
+    simulate packing-slow nezamabadi2017/packing.toml "${settings[@]}" $briefly loading.0.strain_rate=$half
+    simulate packing-fine nezamabadi2017/packing.toml "${settings[@]}" $briefly bpm.tolerance=2.5e-4
     simulate packing-friction nezamabadi2017/packing.toml "${settings[@]}" material.friction=0.5
 }
 
@@ -21,7 +22,8 @@ plan_packing() {
 packing_curves() {
     local run=$runs/$1
     awk -v attraction_stress=$attraction_stress -f $figures_here/packing_curve.awk "$run/history.csv" >"$run/curve.csv"
-    awk -f $figures_here/after_consolidation.awk "$run/curve.csv" >"$run/after.csv"
+    local sigma0=$(awk -f $figures_here/pore_filling.awk "$run/curve.csv" | head -1 | cut -d" " -f1)
+    awk -v sigma0=$sigma0 -f $figures_here/after_consolidation.awk "$run/curve.csv" >"$run/after.csv"
     awk -v x=packing_fraction -v y=z,stress -v grid="$packing_phis" -f $here/at.awk "$run/curve.csv" >"$run/by_phi.csv"
     awk -v x=cumulative_strain -v y=packing_fraction,z -v grid="$packing_strains" -f $here/at.awk "$run/curve.csv" >"$run/by_strain.csv"
     awk -v x=strain -v y=packing_fraction,ratio -v grid="$packing_strains_after" -f $here/at.awk "$run/after.csv" >"$run/by_strain_after.csv"
@@ -38,29 +40,29 @@ make_packing() {
         awk -f $here/band.awk "${seeds[@]/%/$table.csv}" >"$made/packing_$table.csv" </dev/null
         cp "$runs/packing-friction/$table.csv" "$made/packing_friction_$table.csv"
     done
-    awk -f $figures_here/pore_filling.awk "${seeds[@]/%/after.csv}" >"$made/pore_filling.txt"
+    awk -f $figures_here/pore_filling.awk "${seeds[@]/%/curve.csv}" >"$made/pore_filling.txt"
     read -r sigma0 sigma0_error alpha alpha_error slope slope_error < <(tail -1 "$made/pore_filling.txt")
     awk -v alpha=$alpha 'BEGIN { print "ratio,packing_fraction"; for (r = 1; r < 15; r += 0.1) print r "," 1 - 0.2 * exp(-alpha * (r - 1)) }' \
         >"$made/eq14.csv"
 
     {
-        echo "| run | steps | CPU time, one thread [min] | largest penetration [d] | steps not converged | Z at phi 0.75 | 0.80 | 0.90 | stress [F0/<a0>] at phi 0.80 | 0.90 | 0.95 |"
+        echo "| run | steps | CPU time, one thread [min] | largest penetration [d] | steps not converged | Z at phi 0.75 | 0.80 | 0.89 | stress [F0/<a0>] at phi 0.80 | 0.89 | 0.95 |"
         echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
         for seed in $packing_seeds; do packing_row packing-$seed "mu = 0, seed $seed"; done
         for variant in $packing_variants; do packing_row packing-$variant "${variant_of[$variant]}, seed 1"; done
     } | table packing
     {
-        echo "| stress at phi | 0.75 | 0.80 | 0.85 | 0.90 | 0.95 |"
-        echo "|---|--:|--:|--:|--:|--:|"
+        echo "| stress at phi | 0.75 | 0.77 | 0.80 | 0.83 | 0.86 | 0.89 | 0.95 |"
+        echo "|---|--:|--:|--:|--:|--:|--:|--:|"
         printf "| deviation of the seeds / mean |"
-        for phi in 0.750 0.800 0.850 0.900 0.950; do
+        for phi in 0.750 0.770 0.800 0.830 0.860 0.890 0.950; do
             printf " %s |" "$(awk -v s="$(value "$made/packing_by_phi.csv" $phi stress_deviation)" -v m="$(value "$made/packing_by_phi.csv" $phi stress)" \
                 'BEGIN { printf "%.1f %%", 100 * s / m }')"
         done
         echo
         for variant in $packing_variants; do
             printf "| %s / seed 1 - 1 |" "${variant_of[$variant]}"
-            for phi in 0.750 0.800 0.850 0.900 0.950; do
+            for phi in 0.750 0.770 0.800 0.830 0.860 0.890 0.950; do
                 base=$(value "$runs/packing-1/by_phi.csv" $phi stress)
                 printf " %s |" "$(percent "$(value "$runs/packing-$variant/by_phi.csv" $phi stress)" "$base")"
             done
@@ -100,7 +102,7 @@ packing_row() {
         "$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i == "contact_penetration") c = i; if ($i == "unconverged_steps") u = i }; next }
             $c > most { most = $c } END { printf "%.1e | %d", most / 0.103e-3, $u }' "$runs/$1/history.csv")"
     local phi
-    for phi in 0.750 0.800 0.900; do printf " %s |" "$(number %.2f "$(value "$runs/$1/by_phi.csv" $phi z)")"; done
-    for phi in 0.800 0.900 0.950; do printf " %s |" "$(number %.3f "$(value "$runs/$1/by_phi.csv" $phi stress)")"; done
+    for phi in 0.750 0.800 0.890; do printf " %s |" "$(number %.2f "$(value "$runs/$1/by_phi.csv" $phi z)")"; done
+    for phi in 0.800 0.890 0.950; do printf " %s |" "$(number %.3f "$(value "$runs/$1/by_phi.csv" $phi stress)")"; done
     echo
 }
