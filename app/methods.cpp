@@ -51,7 +51,8 @@ std::span<const MethodKeys> method_keys() {
     }();
     static const std::vector<MethodKeys> table = [] {
         std::vector<MethodKeys> rows;
-        for (std::size_t m = 0; m < keys.size(); ++m) rows.push_back({methods()[m].name, keys[m], methods()[m].faults});
+        for (std::size_t m = 0; m < keys.size(); ++m)
+            rows.push_back({methods()[m].name, keys[m], methods()[m].faults});
         return rows;
     }();
     return table;
