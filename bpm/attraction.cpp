@@ -32,6 +32,7 @@ Attraction::Attraction(const AttractionLaw& law, std::vector<int> grain_start, s
       skin_(skin),
       radius_(radius.begin(), radius.end()),
       grains_(grain_start_.size() - 1),
+      lost_(grains_.size(), 0),
       energy_(radius.size(), 0.0) {
     check(law, skin);
 }
@@ -51,15 +52,19 @@ void Attraction::forces(std::span<const Vec2> x, double time, std::span<Vec2> fo
             std::copy(here.begin(), here.end(), built_at_.begin() + grain_start_[g]);
             rebuild(g);
             ++rebuilt;
-            if (gathered && grain.has_lost_disc()) lost = std::max(lost, static_cast<int>(g));
+            if (gathered) lost_[g] = grain.lost_discs();
+            if (lost_[g] > most_lost * static_cast<double>(here.size()))
+                lost = std::max(lost, static_cast<int>(g));
         }
         attract(law_, grain.discs(), own(force, g).data()->data());
     }
     rebuilds_ += rebuilt;
     if (lost >= 0)
-        throw DivergedError(lost, "disc position", time,
-                            "a disc has left its grain; load more slowly, use a smaller bpm.step or a larger "
-                            "bpm.attraction_range");
+        throw DivergedError(
+            lost, "disc position", time,
+            fmt::format("{} of its discs are out of reach of all others; load more slowly, use a "
+                        "smaller bpm.step or a larger bpm.attraction_range",
+                        lost_[static_cast<std::size_t>(lost)]));
 }
 
 double Attraction::energy(std::span<const Vec2> x) {
@@ -86,7 +91,10 @@ void Attraction::load(const Checkpoint& from, const std::string& prefix) {
     if (built_at_.empty()) return;
     if (built_at_.size() != radius_.size())
         throw InputError("checkpoint: the attraction lists are for another number of discs");
-    for (std::size_t g = 0; g < grains_.size(); ++g) rebuild(g);
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        rebuild(g);
+        lost_[g] = grains_[g].lost_discs();
+    }
 }
 
 }  // namespace softgrain::bpm

@@ -21,13 +21,18 @@ class Attraction {
                double skin);
 
     /// Force on every disc [N]. Refreshes the neighbours of grains that have changed too much. Throws
-    /// DivergedError naming the grain if a disc is out of reach of every other disc of its grain, unless
-    /// they are still to be gathered.
+    /// DivergedError naming the grain if more than most_lost of its discs are lost, unless they are still to
+    /// be gathered.
     void forces(std::span<const Vec2> x, double time, std::span<Vec2> force, bool gathered = true,
                 bool threads = true);
 
     /// Sum of the pair potentials [J per unit thickness]; 0 before the first call of forces().
     double energy(std::span<const Vec2> x);
+
+    /// Share of a grain's discs.
+    static constexpr double most_lost = 0.02;
+    /// Discs that are out of reach of every other disc of their grain, at its last look for neighbours.
+    int lost_discs(std::size_t grain) const { return lost_[grain]; }
 
     /// How often a grain's neighbours were looked for, all grains together.
     long long rebuilds() const { return rebuilds_; }
@@ -50,6 +55,7 @@ class Attraction {
     std::vector<double> radius_;
     std::vector<Vec2> built_at_;  ///< empty before the first call
     std::vector<DiscStripes> grains_;
+    std::vector<int> lost_;       ///< [grains]
     std::vector<double> energy_;  ///< [n]
     long long rebuilds_ = 0;
 };

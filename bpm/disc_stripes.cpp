@@ -116,8 +116,8 @@ double DiscStripes::largest_square_move() const {
     return bpm::largest_square_move(discs(), x_built_.data(), y_built_.data());
 }
 
-bool DiscStripes::has_lost_disc() const {
-    if (disc_.size() == 1) return false;
+int DiscStripes::lost_discs() const {
+    if (disc_.size() == 1) return 0;
     const auto meets_another = [&](std::size_t n) {
         const auto own = at(slot_[n]);
         for (int k = start_[n]; k < start_[n + 1]; ++k)
@@ -128,9 +128,9 @@ bool DiscStripes::has_lost_disc() const {
             }
         return false;
     };
-    for (std::size_t n = 0; n < disc_.size(); ++n)
-        if (!meets_another(n)) return true;
-    return false;
+    int lost = 0;
+    for (std::size_t n = 0; n < disc_.size(); ++n) lost += meets_another(n) ? 0 : 1;
+    return lost;
 }
 
 }  // namespace softgrain::bpm

@@ -21,8 +21,8 @@ class DiscStripes {
     StripedDiscs discs() const;
     /// Square of the largest motion since the build, apart from that of the grain as a whole [m^2].
     double largest_square_move() const;
-    /// True if a disc is farther than cut_off (r_i + r_j) + skin from all others.
-    bool has_lost_disc() const;
+    /// Discs farther than cut_off (r_i + r_j) + skin from all others; a lone disc is not lost.
+    int lost_discs() const;
     std::size_t run_count() const { return run_.size(); }
 
   private:

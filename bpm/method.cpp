@@ -242,12 +242,10 @@ BpmSettings settings_of(const Scenario& scenario) {
 }
 
 const Method& method() {
-    static const Method row{"bpm",
-                            "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
-                            &keys,
-                            &make,
-                            "fragments, unless its grains have bonds",
-                            &faults_of};
+    static const Method row{
+        "bpm", "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
+        &keys, &make,
+        "",    &faults_of};
     return row;
 }
 

@@ -112,6 +112,7 @@ class BpmSolver final : public Solver {
 
     void view_grains();
     double count_fragments();
+    double count_lost_discs();
     void view_outlines(Need need, GrainView& view);
     void view_fields(GrainView& view);
     void view_parts(GrainView& view);

@@ -37,7 +37,7 @@ GrainView BpmSolver::view(Need need) {
     view.energy = energy_;
     view.contact_report = {penetration_ * diameter_, contact_result_.sweeps,
                            static_cast<double>(unconverged_steps_)};
-    if (bonds_) view.fragments = count_fragments();
+    view.fragments = bonds_ ? count_fragments() : count_lost_discs();
     const GrainContactInput after_step{discs(),   centroid_, reference_area_, box_, touch_gap * diameter_,
                                        last_step_};
     if (box2d_ && (wants(need, Need::contacts) || wants(need, Need::stress) || wants(need, Need::parts)))
@@ -130,7 +130,7 @@ void BpmSolver::view_fields(GrainView& view) {
         non_affine_motion_[g] = motion.residual / (diameter_ * diameter_);
     }
     view.fields.push_back({"internal_packing_fraction", "", 1, internal_packing_fraction_});
-    if (bonds_) view.fields.push_back({"fragments", "", 1, fragments_of_grain_});
+    view.fields.push_back({"fragments", "", 1, fragments_of_grain_});
     view.fields.push_back({"F", "1", 4, deformation_});
     view.fields.push_back({"non_affine_motion", "disc diameters^2", 1, non_affine_motion_});
 }
@@ -140,6 +140,17 @@ AffineFit BpmSolver::motion_of(std::size_t grain) const {
     const std::size_t first = at(grain_start_[grain]);
     const std::size_t count = at(grain_start_[grain + 1]) - first;
     return fit_affine(std::span(x_start_).subspan(first, count), std::span(x_).subspan(first, count));
+}
+
+/// Grains and the discs that they have lost.
+double BpmSolver::count_lost_discs() {
+    fragments_of_grain_.resize(grains());
+    double sum = 0.0;
+    for (std::size_t g = 0; g < grains(); ++g) {
+        fragments_of_grain_[g] = 1.0 + attraction_.lost_discs(g);
+        sum += fragments_of_grain_[g];
+    }
+    return sum;
 }
 
 /// Of all grains; notes those of each grain and disc.

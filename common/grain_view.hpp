@@ -126,7 +126,7 @@ struct GrainView {
 
     ContactReport contact_report;
     double fragments =
-        std::numeric_limits<double>::quiet_NaN();  ///< that all grains have come to, if they can break
+        std::numeric_limits<double>::quiet_NaN();  ///< that all grains have come to, if the method knows
 
     std::size_t size() const { return centroid.size(); }
 };

@@ -175,6 +175,25 @@ TEST(Attraction, ManyEqualAndOneLoneDisc) {
     EXPECT_NEAR(attraction.energy(x), -63.0 / 384.0 - 0.5, 1e-15);
 }
 
+TEST(Attraction, CountsLostDiscsUntilThereAreTooMany) {
+    // A row of 60 discs that touch each other; one, then two of them far away.
+    Discs row;
+    for (int k = 0; k < 60; ++k) {
+        row.x.emplace_back(k, 0.0);
+        row.radius.push_back(0.5);
+    }
+    Attraction attraction({1.0}, {0, 60}, row.radius, 0.3);
+    std::vector<Vec2> force(60);
+    attraction.forces(row.x, 0.0, force);
+    EXPECT_EQ(attraction.lost_discs(0), 0);
+    row.x[59].y() = 10.0;
+    attraction.forces(row.x, 0.0, force);
+    EXPECT_EQ(attraction.lost_discs(0), 1);
+    EXPECT_EQ(force[59], Vec2(0.0, 0.0));
+    row.x[0].y() = 20.0;
+    EXPECT_THROW(attraction.forces(row.x, 0.0, force), DivergedError);
+}
+
 TEST(Attraction, NamesTheGrainThatLostADisc) {
     Discs discs{{{0, 0}, {1, 0}, {10, 0}, {11, 0}, {30, 0}}, {0.5, 0.5, 0.5, 0.5, 0.5}};
     Attraction attraction({1.0}, {0, 2, 5}, discs.radius, 0.3);

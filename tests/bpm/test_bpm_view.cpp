@@ -133,10 +133,11 @@ TEST(BpmView, OutlinesAreCounterClockwiseAndHoldTheArea) {
 TEST(BpmView, FieldsHaveOneValueForEachGrain) {
     Pressed sample;
     const GrainView view = sample.solver.view(Need::fields);
-    ASSERT_EQ(view.fields.size(), 5U);
+    ASSERT_EQ(view.fields.size(), 6U);
     for (const Field& field : view.fields)
         EXPECT_EQ(field.values.size(), 4U * static_cast<std::size_t>(field.components)) << field.name;
     EXPECT_EQ(view.fields[0].values[0], 60.0);
+    EXPECT_EQ(view.fragments, 4.0);
     for (double deepest : view.fields[1].values) {
         EXPECT_GE(deepest, 0.0);
         EXPECT_LT(deepest, 1e-3);
