@@ -12,6 +12,16 @@ constexpr std::size_t blocks = 32;
 
 }  // namespace
 
+CellChange cell_change(const Box& before, const Box& now) {
+    CellChange change;
+    const Mat2& F = change.F = now.lattice() * before.lattice().inverse();
+    change.shift = now.origin() - F * before.origin();
+    const double mean = std::hypot(F(0, 0) + F(1, 1), F(0, 1)),
+                 half = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
+    change.loss = std::max(0.0, 1.0 - 0.5 * (mean - half));
+    return change;
+}
+
 /// Pairs of all blocks of grains, in an order that does not depend on the number of threads.
 void NeighborList::find_pairs() {
     const std::size_t n = grid_.size();
@@ -73,16 +83,7 @@ bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach,
     const std::size_t n = built_at_.size();
     if (x.size() != n || cell.periodic != built_cell_.periodic) return true;
     if (n == 0) return false;
-    Mat2 F = Mat2::Identity();
-    Vec2 shift = Vec2::Zero();
-    double loss = 0.0;  // 1 - s
-    if (cell.periodic) {
-        F = cell.lattice() * built_cell_.lattice().inverse();
-        shift = cell.origin() - F * built_cell_.origin();
-        const double mean = std::hypot(F(0, 0) + F(1, 1), F(0, 1)),
-                     half = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
-        loss = std::max(0.0, 1.0 - 0.5 * (mean - half));
-    }
+    const auto [F, shift, loss] = cell.periodic ? cell_change(built_cell_, cell) : CellChange{};
     const double half_skin = 0.5 * skin_ * (1.0 - loss);
     const double xx = F(0, 0), xy = F(0, 1), yy = F(1, 1);
     const double* const now = x.data()->data();

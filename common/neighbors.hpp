@@ -17,6 +17,15 @@ struct Pair {
     friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
+/// What a moving cell has done to the positions x = F X + shift of grains that follow it.
+struct CellChange {
+    Mat2 F = Mat2::Identity();
+    Vec2 shift = Vec2::Zero();
+    double loss = 0.0;  ///< 1 - the smaller stretch of F, at least 0
+};
+/// Of a periodic cell, by the same lattice vectors before and now.
+CellChange cell_change(const Box& before, const Box& now);
+
 /// All pairs with |x_j - x_i (+ image)| < reach_i + reach_j + skin, sorted by (i, j). The same list for any
 /// number of threads; made for size ratios up to 100 and beyond.
 class NeighborList {

@@ -1,8 +1,17 @@
-// Complete state of rigid DEM: what is not here is recomputed from it with the same bits.
+// Complete state of rigid DEM: what is not here is found again from it with the same bits.
 #include "common/errors.hpp"
 #include "rigid_dem/solver.hpp"
 
 namespace softgrain::rigid_dem {
+namespace {
+
+constexpr std::array arrays{&Block::shear, &Block::dashpot, &Block::grip, &Block::moment, &Block::bond};
+
+void put_wall(std::vector<double>& to, const ContactMemory& m) {
+    to.insert(to.end(), {m.shear, m.dashpot, m.grip, m.moment, m.bond});
+}
+
+}  // namespace
 
 void RigidDem::save(Checkpoint& to) const {
     to.put("box", std::span<const double>(box_.position));
@@ -13,79 +22,114 @@ void RigidDem::save(Checkpoint& to) const {
     to.put("built_cell", std::vector<double>{built.position[0], built.position[1], built.position[2],
                                              built.position[3], built.tilt});
     to.put("virials", std::vector<Mat2>{cell_virial_, kinetic_tensor_});
-    to.put("time", time_);
-    to.put("x", x_);
-    to.put("v", v_);
-    to.put("spin", spin_);
-    to.put("force", force_);
-    to.put("torque", torque_);
-    to.put("frequency2", frequency2_);
+    to.put("scalars", std::vector<double>{time_, last_dt_, skin_, travelled_, frequency2_, fastest2_,
+                                          law_.between_grains.sticks});
+    to.put("counters", std::vector<std::int64_t>{listings_, steps_listed_, steps_measured_});
+    to.put("order", std::vector<std::int64_t>(order_.begin(), order_.end()));
     to.put("built_at", neighbors_.built_at());
-    to.put("overlap", overlap_);
-    to.put("pair_force", pair_force_);
-    to.put("pair_shear", pair_shear_);
-    std::vector<double> memory;
-    for (const ContactMemory& m : memory_) memory.insert(memory.end(), {m.shear, m.dashpot});
+    std::vector<double> state;
+    each_grain([&](std::size_t, std::size_t r) {
+        const GrainRecord& g = record_[r];
+        state.insert(state.end(), {g.x, g.y, g.vx, g.vy, g.spin});
+    });
+    to.put("state", state);
+    std::vector<double> memory, at_walls;
+    for (const Block& block : blocks_)
+        for (const auto array : arrays) memory.insert(memory.end(), (block.*array).begin(), (block.*array).end());
+    for (const auto& contacts : wall_contacts_)
+        for (const WallContact& contact : contacts) put_wall(at_walls, contact.memory);
     to.put("memory", memory);
-    to.put("wall_overlap", wall_overlap_);
-    to.put("wall_normal_force", wall_normal_force_);
-    to.put("wall_dashpot", wall_dashpot_);
+    to.put("wall_memory", at_walls);
     to.put("wall_force", std::span<const Vec2>(wall_force_));
-    to.put("energy", std::vector<double>{energy_.kinetic, energy_.elastic, energy_.external_work,
-                                         energy_.damping, energy_.friction});
+    to.put("energy", std::vector<double>{dissipated_.external_work, dissipated_.damping, dissipated_.friction,
+                                         dissipated_.adhesion});
 }
 
 void RigidDem::load(const Checkpoint& from) {
-    std::vector<double> values;
     const auto read = [&](std::string_view name, auto& into, std::size_t size) {
         from.get(name, into);
         if (into.size() != size)
             throw InputError("checkpoint array '" + std::string(name) + "' does not fit this packing");
     };
     const std::size_t n = radius_.size();
-    read("box", values, 4);
-    std::copy(values.begin(), values.end(), box_.position.begin());
-    time_ = from.number("time");
-    std::vector<Vec2> built_at;
-    read("built_at", built_at, n);
-    neighbors_ = {};
-    x_ = built_at;
+    std::vector<double> values;
     read("built_cell", values, 5);
-    const Box cell = box_;
     std::copy(values.begin(), values.begin() + 4, box_.position.begin());
     box_.tilt = values[4];
     flips_ = 0;
-    list_neighbors();
-    box_ = cell;
+    read("scalars", values, 7);
+    time_ = values[0];
+    last_dt_ = values[1];
+    skin_ = values[2];
+    const std::vector<double> scalars = values;
+    std::vector<std::int64_t> order;
+    read("order", order, n);
+    std::vector<Vec2> built_at;
+    read("built_at", built_at, n);
+    std::vector<GrainRecord> own;
+    for (std::size_t s = 0; s < n; ++s) {
+        const auto g = static_cast<std::size_t>(order[s]);
+        if (g >= n) throw InputError("checkpoint array 'order' does not fit this packing");
+        order_[s] = static_cast<std::uint32_t>(g);
+        own.push_back({.x = built_at[s].x(), .y = built_at[s].y(), .radius = radius_[g], .inverse_mass = 1.0 / mass_[g]});
+    }
+    list_neighbors(own);
+
+    read("state", values, 5 * n);
+    std::size_t next = 0;
+    each_grain([&](std::size_t, std::size_t r) {
+        GrainRecord& g = record_[r];
+        for (double* value : {&g.x, &g.y, &g.vx, &g.vy, &g.spin}) *value = values[next++];
+        g.rim_speed = g.spin * g.radius;
+    });
+    std::size_t size = 0;
+    for (const Block& block : blocks_)
+        for (const auto array : arrays) size += (block.*array).size();
+    read("memory", values, size);
+    auto memory = values.begin();
+    for (Block& block : blocks_)
+        for (const auto array : arrays)
+            for (double& one : block.*array) one = *memory++;
+    size = 0;
+    for (const auto& contacts : wall_contacts_) size += 5 * contacts.size();
+    read("wall_memory", values, size);
+    memory = values.begin();
+    for (auto& contacts : wall_contacts_)
+        for (WallContact& contact : contacts) {
+            ContactMemory& m = contact.memory;
+            for (double* one : {&m.shear, &m.dashpot, &m.grip, &m.moment, &m.bond}) *one = *memory++;
+        }
+
+    read("box", values, 4);
+    std::copy(values.begin(), values.end(), box_.position.begin());
     read("cell", values, 2);
     box_.tilt = values[0];
     flips_ = static_cast<int>(values[1]);
     read("walls_velocity", values, 5);
     walls_ = {box_, {values[0], values[1], values[2], values[3]}, values[4]};
+    law_.between_grains.sticks = scalars[6];
+    evaluate_forces(walls_, 0.0);
+
+    travelled_ = scalars[3];
+    frequency2_ = scalars[4];
+    fastest2_ = scalars[5];
+    std::vector<std::int64_t> counters;
+    read("counters", counters, 3);
+    listings_ = static_cast<int>(counters[0]);
+    steps_listed_ = counters[1];
+    steps_measured_ = counters[2];
     std::vector<Mat2> virials;
     read("virials", virials, 2);
     cell_virial_ = virials[0];
     kinetic_tensor_ = virials[1];
-    read("x", x_, n);
-    read("v", v_, n);
-    read("spin", spin_, n);
-    read("force", force_, n);
-    read("torque", torque_, n);
-    read("frequency2", frequency2_, n);
-    const std::size_t pairs = neighbors_.pairs().size();
-    read("overlap", overlap_, pairs);
-    read("pair_force", pair_force_, pairs);
-    read("pair_shear", pair_shear_, pairs);
-    read("memory", values, 2 * pairs);
-    for (std::size_t k = 0; k < pairs; ++k) memory_[k] = {values[2 * k], values[2 * k + 1]};
-    read("wall_overlap", wall_overlap_, 4 * n);
-    read("wall_normal_force", wall_normal_force_, 4 * n);
-    read("wall_dashpot", wall_dashpot_, 4 * n);
     std::vector<Vec2> wall_force;
     read("wall_force", wall_force, 4);
     std::copy(wall_force.begin(), wall_force.end(), wall_force_.begin());
-    read("energy", values, 5);
-    energy_ = {values[0], values[1], values[2], values[3], values[4], 0.0};
+    read("energy", values, 4);
+    dissipated_.external_work = values[0];
+    dissipated_.damping = values[1];
+    dissipated_.friction = values[2];
+    dissipated_.adhesion = values[3];
 }
 
 }  // namespace softgrain::rigid_dem

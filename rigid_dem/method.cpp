@@ -8,16 +8,15 @@ namespace softgrain::rigid_dem {
 const Method& method() {
     static const Method row{
         .name = "rigid_dem",
-        .title = "rigid discs, linear contacts with damping and Coulomb friction (Cundall and Strack 1979)",
+        .title = "rigid discs, elastic contacts with damping, friction, rolling resistance, bonds (Cundall and Strack 1979)",
         .keys = keys,
         .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
             refuse(scenario, packing, "rigid_dem", Feature::ellipses, "its grains are discs");
-            refuse(scenario, packing, "rigid_dem", Feature::wall_friction, "its walls are frictionless");
-            refuse(scenario, packing, "rigid_dem", Feature::cohesion, "its contacts never pull");
             refuse(scenario, packing, "rigid_dem", Feature::yield_stress, "its contacts are elastic");
             return std::make_unique<RigidDem>(scenario, packing);
         },
-        .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
+        .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments",
+        .faults = faults};
     return row;
 }
 

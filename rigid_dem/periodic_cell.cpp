@@ -1,44 +1,64 @@
-// Rigid DEM in a periodic cell: velocities against its flow, images, stress.
+// Rigid DEM in a periodic cell: velocities against its flow, images.
 #include "rigid_dem/solver.hpp"
 
 namespace softgrain::rigid_dem {
 
+/// None without a periodic cell.
+Flow RigidDem::flow_of(const WallMotion& walls) const {
+    if (!walls.box.periodic) return {};
+    const Mat2 L = walls.velocity_gradient();
+    const Vec2 origin = walls.box.origin();
+    return {origin.x(), origin.y(), walls.velocity[0], walls.velocity[2], L(0, 0), L(0, 1), L(1, 1)};
+}
+
 /// A change of the cell's motion moves all grains with it, so that it does not start at the boundary.
 void RigidDem::carry_along(const WallMotion& walls) {
-    for (std::size_t i = 0; i < x_.size(); ++i)
-        v_[i] += walls.affine_velocity(x_[i]) - walls_.affine_velocity(x_[i]);
+    if (walls.velocity == walls_.velocity && walls.tilt_rate == walls_.tilt_rate) return;
+    each_grain([&](std::size_t, std::size_t r) {
+        const Vec2 x{record_[r].x, record_[r].y};
+        const Vec2 change = walls.affine_velocity(x) - walls_.affine_velocity(x);
+        record_[r].vx += change.x();
+        record_[r].vy += change.y();
+    });
+    walls_ = {box_, walls.velocity, walls.tilt_rate};
+    kinetic_tensor_ = kinetic_tensor(last_dt_);
 }
 
 /// Grains go back into the cell; in the other image the flow has another velocity.
 void RigidDem::wrap(const WallMotion& walls) {
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        const Image image = walls.box.image_of(x_[i]);
-        if (image == Image{}) continue;
-        x_[i] -= walls.box.image(image);
-        v_[i] -= walls.image_velocity(image);
-    }
+    each_grain([&](std::size_t, std::size_t r) {
+        GrainRecord& g = record_[r];
+        const Image image = walls.box.image_of({g.x, g.y});
+        if (image == Image{}) return;
+        const Vec2 shift = walls.box.image(image), speed = walls.image_velocity(image);
+        g.x -= shift.x();
+        g.y -= shift.y();
+        g.vx -= speed.x();
+        g.vy -= speed.y();
+    });
 }
 
 /// Velocity at the time of the positions, half a kick later, against the flow of the cell.
 Mat2 RigidDem::kinetic_tensor(double dt) const {
-    Mat2 sum = Mat2::Zero();
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        const Vec2 c = v_[i] + force_[i] * (0.5 * dt / mass_[i]) - walls_.affine_velocity(x_[i]);
-        sum += mass_[i] * c * c.transpose();
+    const Flow flow = flow_of(walls_);
+    if (flow.xx == 0.0 && flow.xy == 0.0 && flow.yy == 0.0) return Mat2::Zero();  // nothing works on it
+    std::vector<std::array<double, 3>> parts(blocks_.size());
+#pragma omp parallel for schedule(static) if (threads())
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const Block& block = blocks_[b];
+        MotionSums sums{};
+        add_kinetic_tensor(&record_[block.first_record], &force_[block.first_record],
+                           static_cast<int>(block.grains), 0.5 * dt, flow, sums);
+        parts[b] = {0.0, 0.0, 0.0};
+        for (int l = 0; l < lanes; ++l) {
+            parts[b][0] += sums.xx[l];
+            parts[b][1] += sums.xy[l];
+            parts[b][2] += sums.yy[l];
+        }
     }
-    return sum;
-}
-
-Vec2 RigidDem::branch(std::size_t pair) const {
-    const Pair& p = neighbors_.pairs()[pair];
-    const Vec2 direct = x_[static_cast<std::size_t>(p.j)] - x_[static_cast<std::size_t>(p.i)];
-    return box_.periodic ? direct + box_.flipped(flips_).image(neighbors_.images()[pair]) : direct;
-}
-
-void RigidDem::sum_virial() {
-    cell_virial_.setZero();
-    for (std::size_t k = 0; k < overlap_.size(); ++k)
-        if (overlap_[k] > 0.0) cell_virial_ -= pair_force_[k] * branch(k).transpose();
+    Mat2 all = Mat2::Zero();
+    for (const auto& [xx, xy, yy] : parts) all += (Mat2() << xx, xy, xy, yy).finished();
+    return all;
 }
 
 }  // namespace softgrain::rigid_dem

@@ -1,10 +1,16 @@
 #pragma once
-// Classical DEM of rigid discs (Cundall type): leap-frog, linear contacts, Coulomb friction with history.
-#include "common/gather.hpp"
+// Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
+// solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability limit.
+// periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
+#include <algorithm>
+
 #include "common/neighbors.hpp"
 #include "common/solver.hpp"
-#include "rigid_dem/contact_law.hpp"
+#include "common/thread_choice.hpp"
+#include "rigid_dem/blocks.hpp"
+#include "rigid_dem/motion_kernel.hpp"
 #include "rigid_dem/parameters.hpp"
+#include "rigid_dem/wall_contacts.hpp"
 
 namespace softgrain::rigid_dem {
 
@@ -23,66 +29,118 @@ class RigidDem final : public Solver {
     void save(Checkpoint& to) const override;
     void load(const Checkpoint& from) override;
 
-    /// For set-ups that start in motion [n].
+    /// For set-ups that start in motion [n], half a step back.
     void set_velocity(std::span<const Vec2> velocity, std::span<const double> spin);
-    std::span<const double> spin() const { return spin_; }
+    /// [n] after the last view of all fields [1/s].
+    std::span<const double> spin();
 
   private:
-    /// `walls` at the end of the step.
+    struct BlockTotals;
+    struct ContactBook;
+
+    // one step
+    void move(const WallMotion& walls, double dt);
     void evaluate_forces(const WallMotion& walls, double dt);
-    template <bool with_friction>
-    void evaluate_pairs(const WallMotion& walls, double dt);
-    template <bool with_friction>
-    void gather_forces(const WallMotion& walls, double dt);
+    BlockTotals contact_forces(std::size_t block, const WallMotion& cell, double dt);
+    void refresh_copies(const Block& block, const WallMotion& cell);
+    void collect_arrivals(const Block& block);
+    void throw_too_fast(const WallMotion& walls, double dt) const;
+    bool threads() const;
+
+    // neighbours and blocks
+    bool list_is_stale();
+    void list_again();
+    void list_neighbors(const std::vector<GrainRecord>& own);
+    void sort_in_space(std::vector<GrainRecord>& own);
+    void prepare_pairs(Block& block) const;
+    void list_walls(std::size_t block);
+    ContactBook close_book();
+    void copy_memory(const ContactBook& book, Block& block) const;
+    double skin_by_motion() const;
+    double reach_of(std::size_t grain) const;
+    Deformation deformation_since_listing(double& loss) const;
+
+    // time step
+    void find_frequency();
+    void add_stiffness(std::size_t block, std::vector<ForceSum>& stiffness) const;
+    double stiffness_soon(std::size_t grain) const;
+
+    // periodic cell
+    Flow flow_of(const WallMotion& walls) const;
     void carry_along(const WallMotion& walls);
     void wrap(const WallMotion& walls);
-    void list_neighbors();
-    void sum_virial();
-    Vec2 branch(std::size_t pair) const;
     Mat2 kinetic_tensor(double dt) const;
-    void account_energy(double dt);
+
+    // energy
+    EnergyLedger energy() const;
+
+    // view
+    void sort_by_grain();
     void measure_area();
     void list_contacts();
     void measure_stress();
     void draw_outlines();
 
+    /// visit(i, j, pair) for each pair of a block, grains by number.
+    template <class Visit>
+    void each_pair(const Block& block, const Visit& visit) const;
+    /// visit(grain, record) in spatial order.
+    template <class Visit>
+    void each_grain(const Visit& visit) const;
+    const GrainRecord& record(const Block& block, std::size_t local) const {
+        return record_[block.first_record + local];
+    }
+    double overlap(const Block& block, std::size_t pair) const;
+    ContactStiffness stiffness_of(const Block& block, std::size_t pair) const;
+    ContactMemory memory_of(const Block& block, std::size_t pair) const;
+    ContactForce pair_force(const Block& block, std::size_t pair) const;
+    std::size_t grain_of(const Block& block, const WallContact& contact) const {
+        return order_[block.first_grain + contact.record - block.first_record];
+    }
+
     Parameters law_;
+    PairKernel kernel_;
+    bool uniform_;  ///< all pairs are equally stiff
     Box box_;           ///< as the loop moves it
     WallMotion walls_;  ///< of the last step, its box at the end of it
     int flips_ = 0;     ///< of a periodic cell's basis against box_
-    double time_ = 0.0;
-    double mean_modulus_ = 0.0, largest_stiffness_ = 0.0;
+    double time_ = 0.0, last_dt_ = 0.0;
+    double mean_modulus_ = 0.0;
 
-    // grains [n]
+    // grains by number [n]
     std::vector<double> radius_, mass_, reference_area_;
-    std::vector<double> stiffness_;  ///< at a rigid wall [N/m]
-    std::vector<Vec2> x_, v_, force_;
-    std::vector<double> spin_, torque_;
-    std::vector<double> frequency2_;  ///< bound on omega^2 from the stiffness sum [1/s^2]
+    std::vector<std::uint8_t> grain_class_;  ///< empty if there is one
+    std::vector<Material> material_;         ///< by class
+    GrainElasticity elasticity_of(std::size_t grain) const;
 
-    // pairs of the neighbour list
+    // grains by record: blocks with their copies
+    std::vector<std::uint32_t> order_;  ///< grain by place in spatial order [n]
+    std::vector<Block> blocks_;
+    std::vector<std::vector<WallContact>> wall_contacts_;  ///< by block
+    std::vector<GrainRecord> record_;
+    std::vector<ForceSum> force_;
+
+    // neighbour list
     NeighborList neighbors_;
-    PairsOfGrain pairs_of_;
-    std::vector<ContactMemory> memory_;
-    std::vector<double> pair_stiffness_;    ///< [N/m]
-    std::vector<Vec2> pair_force_;          ///< on i [N]
-    std::vector<double> pair_shear_;        ///< tangential part, for the torque [N]
-    std::vector<double> overlap_;           ///< <= 0 if apart [m]
-    std::vector<double> pair_dissipation_;  ///< by sliding in the last step [J]
-    std::vector<double> pair_damping_;      ///< by the dashpot in the last step [J]
+    double skin_ = 0.0;
+    int listings_ = 0;
+    double travelled_ = 0.0;       ///< bound on motion against the flow since the listing [m]
+    long long steps_listed_ = 0;   ///< steps since then
+    long long steps_measured_ = 0; ///< since the last look at the frequency
+    double frequency2_ = 0.0;      ///< bound on omega^2 [1/s^2]
+    double fastest2_ = 0.0;        ///< squared speed against the flow in the last step [m^2/s^2]
+    ThreadChoice thread_choice_;
 
-    // walls: four possible contacts for each grain [4 n]
-    std::vector<double> wall_normal_force_, wall_overlap_, wall_dashpot_, wall_damping_;
+    // sums of the last step
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-    std::array<Vec2, 4> wall_force_before_ = wall_force_;
-
-    // periodic cell
     Mat2 cell_virial_ = Mat2::Zero();     ///< -sum of force (x) branch [N m]
     Mat2 kinetic_tensor_ = Mat2::Zero();  ///< sum of m c (x) c, c against the flow of the cell [J]
+    double largest_overlap_ = 0.0;        ///< [m]
+    EnergyLedger dissipated_;             ///< and external work; the rest is found on demand
 
-    EnergyLedger energy_;
-
-    // storage behind the view
+    // storage behind the view, by grain
+    std::vector<Vec2> x_, v_;
+    std::vector<double> spin_;
     std::vector<double> area_;
     double covered_area_ = 0.0;
     std::vector<GrainContact> contacts_;
@@ -90,5 +148,30 @@ class RigidDem final : public Solver {
     std::vector<int> outline_offset_;
     std::vector<Vec2> outline_point_;
 };
+
+template <class Visit>
+void RigidDem::each_pair(const Block& block, const Visit& visit) const {
+    // A copy's grain: the record it copies lies in its block at this place.
+    const auto grain_of = [&](std::size_t local) -> std::size_t {
+        if (local < block.grains) return order_[block.first_grain + local];
+        const std::uint32_t record = block.halo[local - block.grains].record;
+        const auto after = std::upper_bound(
+            blocks_.begin(), blocks_.end(), record,
+            [](std::uint32_t r, const Block& b) { return r < b.first_record; });
+        const Block& home = *(after - 1);
+        return order_[home.first_grain + record - home.first_record];
+    };
+    for (std::size_t k = 0; k < block.pairs.size(); ++k) {
+        const std::size_t i = block.pairs[k].i, j = block.pairs[k].j;
+        visit(grain_of(i), grain_of(j), k);
+    }
+}
+
+template <class Visit>
+void RigidDem::each_grain(const Visit& visit) const {
+    for (const Block& block : blocks_)
+        for (std::size_t g = 0; g < block.grains; ++g)
+            visit(static_cast<std::size_t>(order_[block.first_grain + g]), block.first_record + g);
+}
 
 }  // namespace softgrain::rigid_dem

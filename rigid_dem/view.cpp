@@ -19,6 +19,7 @@ double cap_area(double radius, double h) {
 }  // namespace
 
 GrainView RigidDem::view(Need need) {
+    sort_by_grain();
     GrainView view;
     view.time = time_;
     view.box = box_;
@@ -27,7 +28,7 @@ GrainView RigidDem::view(Need need) {
     view.mass = mass_;
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
-    view.energy = energy_;
+    view.energy = energy();
     if (wants(need, Need::area)) {
         measure_area();
         view.area = area_;
@@ -53,45 +54,114 @@ GrainView RigidDem::view(Need need) {
     return view;
 }
 
+std::span<const double> RigidDem::spin() {
+    sort_by_grain();
+    return spin_;
+}
+
+/// From spatial order to the grains' own.
+void RigidDem::sort_by_grain() {
+    const std::size_t n = radius_.size();
+    x_.resize(n);
+    v_.resize(n);
+    spin_.resize(n);
+    each_grain([&](std::size_t grain, std::size_t r) {
+        const GrainRecord& g = record_[r];
+        x_[grain] = {g.x, g.y};
+        v_[grain] = {g.vx, g.vy};
+        spin_[grain] = g.spin;
+    });
+}
+
+double RigidDem::overlap(const Block& block, std::size_t pair) const {
+    const GrainRecord &a = record(block, block.pairs[pair].i), &b = record(block, block.pairs[pair].j);
+    return a.radius + b.radius - std::hypot(b.x - a.x, b.y - a.y);
+}
+
+ContactStiffness RigidDem::stiffness_of(const Block& block, std::size_t pair) const {
+    const std::size_t at = uniform_ ? 0 : pair;
+    return {block.k[at], block.shear_ratio[at]};
+}
+
+ContactMemory RigidDem::memory_of(const Block& block, std::size_t pair) const {
+    const auto at = [&](const std::vector<double>& memory) { return memory.empty() ? 0.0 : memory[pair]; };
+    return {at(block.shear), at(block.dashpot), at(block.grip), at(block.moment), at(block.bond)};
+}
+
 void RigidDem::measure_area() {
     area_ = reference_area_;
-    const auto pairs = neighbors_.pairs();
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        if (overlap_[k] <= 0.0) continue;
-        const auto i = static_cast<std::size_t>(pairs[k].i);
-        const auto j = static_cast<std::size_t>(pairs[k].j);
-        const double d = radius_[i] + radius_[j] - overlap_[k];
-        const double h = 0.5 * (d + (radius_[i] * radius_[i] - radius_[j] * radius_[j]) / d);
-        area_[i] -= cap_area(radius_[i], h);
-        area_[j] -= cap_area(radius_[j], d - h);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        each_pair(blocks_[b], [&](std::size_t i, std::size_t j, std::size_t pair) {
+            const double into = overlap(blocks_[b], pair);
+            if (into <= 0.0) return;
+            const double d = radius_[i] + radius_[j] - into;
+            const double h = 0.5 * (d + (radius_[i] * radius_[i] - radius_[j] * radius_[j]) / d);
+            area_[i] -= cap_area(radius_[i], h);
+            area_[j] -= cap_area(radius_[j], d - h);
+        });
+        for (const WallContact& contact : wall_contacts_[b]) {
+            const GrainRecord& g = record_[contact.record];
+            const double into = wall_overlap(g, contact.wall, box_);
+            if (into > 0.0) area_[grain_of(blocks_[b], contact)] -= cap_area(g.radius, g.radius - into);
+        }
     }
-    for (std::size_t c = 0; c < wall_overlap_.size(); ++c)
-        if (wall_overlap_[c] > 0.0)
-            area_[c / 4] -= cap_area(radius_[c / 4], radius_[c / 4] - wall_overlap_[c]);
     covered_area_ = 0.0;
     for (double a : area_) covered_area_ += a;
 }
 
 void RigidDem::list_contacts() {
     contacts_.clear();
-    const auto pairs = neighbors_.pairs();
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        for (int w = 3; w >= 0; --w) {
-            const std::size_t c = 4 * i + static_cast<std::size_t>(w);
-            if (wall_overlap_[c] <= 0.0) continue;
-            const Vec2 inward = wall_normal(w);
-            contacts_.push_back({static_cast<int>(i), -1 - w,
-                                 x_[i] - (radius_[i] - wall_overlap_[c]) * inward, -inward,
-                                 wall_normal_force_[c] * inward, 0.0});
-        }
-        for (; k < pairs.size() && pairs[k].i == static_cast<int>(i); ++k) {
-            if (overlap_[k] <= 0.0) continue;
-            const Vec2 n = branch(k).normalized();
-            contacts_.push_back({pairs[k].i, pairs[k].j, x_[i] + (radius_[i] - 0.5 * overlap_[k]) * n, n,
-                                 pair_force_[k], 0.0});
+    const WallMotion here{box_, walls_.velocity, walls_.tilt_rate};
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const Block& block = blocks_[b];
+        each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
+            const double into = overlap(block, pair);
+            const ContactMemory memory = memory_of(block, pair);
+            if (into <= 0.0 && memory.bond == 0.0) return;
+            const GrainRecord &from = record(block, block.pairs[pair].i), &to = record(block, block.pairs[pair].j);
+            const double turn = i < j ? 1.0 : -1.0;
+            const Vec2 n = turn * Vec2{to.x - from.x, to.y - from.y}.normalized();
+            const ContactForce answer = pair_force(block, pair);
+            const Vec2 force = answer.shear * perpendicular(n) - answer.normal * n;
+            const std::size_t first = std::min(i, j);
+            const Vec2 at = x_[first] + (radius_[first] - 0.5 * into) * n;
+            contacts_.push_back({static_cast<int>(first), static_cast<int>(std::max(i, j)), at, n, force, 0.0});
+        });
+        for (WallContact contact : wall_contacts_[b]) {  // a copy: its memory is not to change
+            const GrainRecord& g = record_[contact.record];
+            const double into = wall_overlap(g, contact.wall, box_);
+            if (into <= 0.0) continue;
+            const Vec2 n = -wall_normal(contact.wall);
+            const ContactForce answer = softgrain::rigid_dem::wall_force(contact, g, here, law_, 0.0);
+            contacts_.push_back({static_cast<int>(grain_of(block, contact)), -1 - contact.wall,
+                                 Vec2{g.x, g.y} + (g.radius - into) * n, n,
+                                 answer.shear * perpendicular(n) - answer.normal * n, 0.0});
         }
     }
+    std::sort(contacts_.begin(), contacts_.end(), [](const GrainContact& a, const GrainContact& b) {
+        return std::pair(a.i, a.j) < std::pair(b.i, b.j);
+    });
+}
+
+/// As after the last step.
+ContactForce RigidDem::pair_force(const Block& block, std::size_t pair) const {
+    const GrainRecord &a = record(block, block.pairs[pair].i), &b = record(block, block.pairs[pair].j);
+    const double into = overlap(block, pair);
+    const Vec2 n = Vec2{b.x - a.x, b.y - a.y}.normalized(), against{b.vx - a.vx, b.vy - a.vy};
+    const ContactStiffness stiffness = stiffness_of(block, pair);
+    ContactMemory memory = memory_of(block, pair);
+    const ContactInput in{.overlap = into,
+                          .closing = -against.dot(n),
+                          .slip = 0.0,
+                          .spin_difference = 0.0,
+                          .k = stiffness.k,
+                          .shear_ratio = stiffness.shear_ratio,
+                          .inverse_mass = a.inverse_mass + b.inverse_mass,
+                          .rolling_radius = in_series(a.radius, b.radius),
+                          .adhesive_length = 2.0 * std::min(a.radius, b.radius)};
+    const LawConstants& law = law_.between_grains;
+    return law_.hertz ? contact_force<Hertz, every_part & ~has_adhesion>(in, memory, law, 0.0)
+                      : contact_force<Linear, every_part>(in, memory, law, 0.0);
 }
 
 void RigidDem::measure_stress() {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
-#include "sdem/space_order.hpp"
+#include "common/space_order.hpp"
 #include "sdem/wall_contacts.hpp"
 
 namespace softgrain::sdem {

@@ -52,8 +52,8 @@ TEST(RigidDemCell, ACollisionAcrossTheEdgeIsAnyCollision) {
     p.radius = {1.0, 0.9};
     const auto outcome = [&](const Vec2& middle) {
         p.center = {middle - Vec2{0.7, 0.75}, middle + Vec2{0.7, 0.75}};
-        RigidDem dem(scenario_with(0.4), p);
-        dem.set_velocity(std::vector<Vec2>{{0.02, 0.0}, {0.0, -0.01}}, std::vector<double>{0.01, 0.0});
+        RigidDem dem(scenario_with(0.1), p);
+        dem.set_velocity(std::vector<Vec2>{{0.03, 0.0}, {0.0, 0.0}}, std::vector<double>{0.01, 0.0});
         deform(dem, p.box, {0.0, 0.0, 0.0}, 60.0);
         const GrainView view = dem.view(Need::base);
         EXPECT_GT(view.energy.friction, 0.0);
@@ -221,8 +221,10 @@ TEST(RigidDem, RefusesWhatItDoesNotHave) {
         EXPECT_THROW(method().make(s, packing), InputError);
     };
     EXPECT_NO_THROW(method().make(scenario_with(0.0), p));
-    refused([](Scenario& s, Packing&) { s.material.wall_friction = 0.1; });
-    refused([](Scenario& s, Packing&) { s.material.cohesion = 0.1; });
+    refused([](Scenario& s, Packing&) {
+        s.material.cohesion = 0.1;
+        s.method_settings.at("rigid_dem").set("normal_law", std::string("hertz"));
+    });
     refused([](Scenario& s, Packing&) { s.material.yield_stress = 0.1; });
     refused([](Scenario&, Packing& packing) {
         packing.aspect_ratio = {1.1};

@@ -5,9 +5,9 @@
 
 #include "common/vec.hpp"
 
-namespace softgrain::sdem {
+namespace softgrain {
 
 /// [n] indices of the points along a Z-order curve over cells of the given size [m].
 std::vector<int> space_order(std::span<const Vec2> x, double cell);
 
-}  // namespace softgrain::sdem
+}  // namespace softgrain

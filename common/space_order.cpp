@@ -1,10 +1,10 @@
-#include "sdem/space_order.hpp"
+#include "common/space_order.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 
-namespace softgrain::sdem {
+namespace softgrain {
 namespace {
 
 /// The bits of v with a zero between each two.
@@ -36,4 +36,4 @@ std::vector<int> space_order(std::span<const Vec2> x, double cell) {
     return order;
 }
 
-}  // namespace softgrain::sdem
+}  // namespace softgrain

@@ -1,0 +1,48 @@
+#pragma once
+// Grains in spatial order, cut into blocks that a core's own cache holds. A block has copies of the grains
+// outside that its pairs reach, shifted into the right image; so nothing in a pair's work knows of other
+// blocks, threads or periodic cells.
+#include <cstddef>
+#include <vector>
+
+#include "common/neighbors.hpp"
+#include "rigid_dem/pair_kernel.hpp"
+
+namespace softgrain::rigid_dem {
+
+/// A copy of a grain of any block.
+struct Halo {
+    std::uint32_t record;  ///< of the grain
+    Image image;           ///< that the copy lies in
+};
+
+/// Forces that other blocks' pairs leave for a grain.
+struct Arrival {
+    std::uint32_t copy;  ///< record of the copy
+    std::uint16_t grain;
+};
+
+struct Block {
+    std::size_t first_grain = 0, grains = 0;  ///< in spatial order
+    std::size_t first_record = 0;             ///< its grains', then its copies'
+    std::vector<Halo> halo;
+    std::vector<Arrival> arrivals;  ///< in order of the copies
+    std::vector<LocalPair> pairs;   ///< of its grains with later ones, sorted
+    /// Of its pairs, padded to whole batches; empty if the law has no use for them.
+    std::vector<double> k, shear_ratio, shear, dashpot, grip, moment, bond;
+
+    bool has_memory() const { return !shear.empty() || !dashpot.empty() || !bond.empty(); }
+    bool remembers(std::size_t pair) const {
+        const auto at = [&](const std::vector<double>& memory) { return memory.empty() ? 0.0 : memory[pair]; };
+        return at(shear) != 0.0 || at(dashpot) != 0.0 || at(grip) != 0.0 || at(moment) != 0.0 || at(bond) != 0.0;
+    }
+    std::size_t padded() const { return (pairs.size() + lanes - 1) / lanes * lanes; }
+};
+
+inline constexpr std::size_t grains_per_block = 1024;
+
+/// Blocks for a list of neighbours by spatial order. Throws InputError if one grain has more neighbours than
+/// a block can count.
+std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains);
+
+}  // namespace softgrain::rigid_dem
