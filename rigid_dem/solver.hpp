@@ -33,6 +33,8 @@ class RigidDem final : public Solver {
     void set_velocity(std::span<const Vec2> velocity, std::span<const double> spin);
     /// [n] after the last view of all fields [1/s].
     std::span<const double> spin();
+    /// Neighbour lists made so far.
+    int listings() const { return listings_; }
 
   private:
     struct BlockTotals;

@@ -75,7 +75,8 @@ void RigidDem::sort_by_grain() {
 
 double RigidDem::overlap(const Block& block, std::size_t pair) const {
     const GrainRecord &a = record(block, block.pairs[pair].i), &b = record(block, block.pairs[pair].j);
-    return a.radius + b.radius - std::hypot(b.x - a.x, b.y - a.y);
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    return a.radius + b.radius - std::sqrt(dx * dx + dy * dy);
 }
 
 ContactStiffness RigidDem::stiffness_of(const Block& block, std::size_t pair) const {
