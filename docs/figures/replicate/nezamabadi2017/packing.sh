@@ -24,7 +24,7 @@ packing_curves() {
     awk -v attraction_stress=$attraction_stress -f $figures_here/packing_curve.awk "$run/history.csv" >"$run/curve.csv"
     local sigma0=$(awk -f $figures_here/pore_filling.awk "$run/curve.csv" | head -1 | cut -d" " -f1)
     awk -v sigma0=$sigma0 -f $figures_here/after_consolidation.awk "$run/curve.csv" >"$run/after.csv"
-    awk -v x=packing_fraction -v y=z,stress -v grid="$packing_phis" -v half=0.01 -f $figures_here/window.awk "$run/curve.csv" >"$run/by_phi.csv"
+    awk -v x=packing_fraction -v y=z,stress -v grid="$packing_phis" -v half=0.01 -f $here/at.awk "$run/curve.csv" >"$run/by_phi.csv"
     awk -v x=cumulative_strain -v y=packing_fraction,z -v grid="$packing_strains" -f $here/at.awk "$run/curve.csv" >"$run/by_strain.csv"
     awk -v x=strain -v y=packing_fraction,ratio -v grid="$packing_strains_after" -f $here/at.awk "$run/after.csv" >"$run/by_strain_after.csv"
 }
