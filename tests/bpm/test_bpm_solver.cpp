@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #include "sample.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -160,17 +161,11 @@ TEST(BpmSolver, SameBitsForOneAndTwoThreads) {
     const Packing packing = square_packing(4, 4, 0.1);
     Scenario scenario = scenario_of(90);
     scenario.method_settings.at("bpm").set("tolerance", 1e-3);
-    std::vector<std::vector<Vec2>> results;
-    for (int threads : {1, 2}) {
-        omp_set_num_threads(1);
-        BpmSolver solver(scenario, packing);
-        omp_set_num_threads(threads);
-        compact(solver, packing.box, 0.3, 30);
-        results.emplace_back(solver.disc_position().begin(), solver.disc_position().end());
-        EXPECT_GT(solver.wall_force()[0].norm(), 0.0);
-    }
-    omp_set_num_threads(1);
-    EXPECT_TRUE(std::ranges::equal(results[0], results[1]));
+    testing::expect_threads_keep_bits([&] { return std::make_unique<BpmSolver>(scenario, packing); }, {1, 2},
+                                      [&](BpmSolver& solver) {
+                                          compact(solver, packing.box, 0.3, 30);
+                                          EXPECT_GT(solver.wall_force()[0].norm(), 0.0);
+                                      });
 }
 
 TEST(BpmSolver, PreparationIsTheSameForOneAndTwoThreads) {
