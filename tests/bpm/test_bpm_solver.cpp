@@ -198,6 +198,31 @@ TEST(BpmSolver, PenetrationFollowsTheTolerance) {
     EXPECT_GT(penetration[0], 3.0 * penetration[1]);
 }
 
+TEST(BpmSolver, RefusesGrainsThatCannotBeParted) {
+    const Packing apart = square_packing(2, 1, 0.1);
+    const auto refusal = [&](const Vec2& second) {
+        Packing packing = apart;
+        packing.center[1] = second;
+        try {
+            BpmSolver(scenario_of(20), packing);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal(apart.center[1]), "");
+    const double right_wall = apart.box.position[1];
+    for (const Vec2& centre :
+         {apart.center[0], Vec2(apart.center[0] + Vec2(0.2, 0.0)), Vec2(right_wall, apart.center[1].y()),
+          Vec2(right_wall + 0.5, apart.center[1].y())}) {
+        const std::string text = refusal(centre);
+        EXPECT_NE(text.find("do not fit into the packing: two grains, or a grain and a wall"),
+                  std::string::npos)
+            << text;
+        EXPECT_NE(text.find("start from a looser packing"), std::string::npos) << text;
+    }
+}
+
 TEST(BpmSolver, TooFastAWallIsAnError) {
     const Packing packing = square_packing(1, 1, 0.1);
     BpmSolver solver(scenario_of(40), packing);
