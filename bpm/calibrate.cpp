@@ -71,11 +71,13 @@ Calibration calibrate(const Scenario& scenario, double radius, GrainProperty pro
     const BpmSettings settings = settings_of(scenario);
     if (settings.behaviour == GrainBehaviour::brittle)
         throw InputError(
-            "calibrate: brittle grains break at bpm.bond_strength, whatever their stiffness; find the "
-            "modulus "
-            "with --set bpm.grain=elastic and without bond_strength");
+            "calibrate: brittle grains break at bpm.bond_strength, whatever their stiffness; find "
+            "bpm.bond_stiffness with `softgrain calibrate --modulus`, --set bpm.grain=elastic and without "
+            "bond_strength");
     if (settings.behaviour == GrainBehaviour::elastic && property == GrainProperty::plateau)
-        throw InputError("calibrate: elastic grains have no plateau; ask for --modulus");
+        throw InputError(
+            "calibrate: elastic grains have no plateau; find bpm.bond_stiffness with `softgrain calibrate "
+            "--modulus`");
     std::vector<std::uint64_t> first(static_cast<std::size_t>(seeds)), others(first.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
         first[k] = k + 1;

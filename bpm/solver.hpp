@@ -99,6 +99,7 @@ class BpmSolver final : public Solver {
     void place(const Box& box, double h);
     void draw_together(const Box& box, double h);
     void step_at_rest(const Box& box, double h);
+    void stop_discs();
     void come_to_rest(const Box& box, double h);
     void break_bonds();
     void note_convergence();

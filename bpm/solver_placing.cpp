@@ -20,6 +20,7 @@ constexpr double placed_overlap = 1e-3;  // [mean disc diameters]
 constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
 constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
 constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
+constexpr double misfit_dilation = 4.0;  // factor of distances, beyond that of any rough outline
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
@@ -39,7 +40,13 @@ Box dilated(const Box& box, double factor) {
     return larger;
 }
 
-/// Factor of all distances at which circles of radius `reach` would not overlap, nor the walls.
+InputError misfit(const std::string& what) {
+    return InputError("bpm: the aggregates do not fit into the packing: " + what +
+                      "; start from a looser packing (smaller packing.packing_fraction)");
+}
+
+/// Factor of all distances at which circles of radius `reach` would not overlap, nor the walls; infinite if
+/// centres coincide or lie on a wall or behind it.
 double clearing_dilation(const std::vector<Vec2>& centre, const std::vector<double>& reach, const Box& box) {
     double factor = 1.0;
     NeighborList near;
@@ -48,17 +55,14 @@ double clearing_dilation(const std::vector<Vec2>& centre, const std::vector<doub
         factor = std::max(factor, (reach[at(pair.i)] + reach[at(pair.j)]) /
                                       (centre[at(pair.j)] - centre[at(pair.i)]).norm());
     for (std::size_t g = 0; g < centre.size(); ++g)
-        for (int w = 0; w < 4; ++w) factor = std::max(factor, reach[g] / box.distance(w, centre[g]));
+        for (int w = 0; w < 4; ++w)
+            factor = std::max(factor, reach[g] / std::max(0.0, box.distance(w, centre[g])));
     return factor;
 }
 
 }  // namespace
 
 void BpmSolver::place(const Box& box, double h) {
-    const auto misfit = [](const std::string& what) {
-        return InputError("bpm: the aggregates do not fit into the packing: " + what +
-                          "; start from a looser packing (smaller packing.packing_fraction)");
-    };
     try {
         draw_together(box, h);
         for (int k = 0; penetration_ > placed_overlap && k < most_placing_steps; ++k) step_at_rest(box, h);
@@ -80,6 +84,11 @@ void BpmSolver::draw_together(const Box& box, double h) {
         own = std::max(own, (x_[d] - centroid_[at(grain_[d])]).norm() + radius_[d]);
     }
     double dilation = clearing_dilation(centroid_, reach, box);
+    if (!(dilation <= misfit_dilation))
+        throw misfit(fmt::format(
+            "two grains, or a grain and a wall, are so near that all distances would have to be {:.3g} "
+            "times as large to part them",
+            dilation));
     const double largest = *std::max_element(reach.begin(), reach.end());
     const auto steps =
         static_cast<int>(std::ceil(std::log(dilation) * 2.0 * largest / (approach * diameter_)));
@@ -101,6 +110,10 @@ void BpmSolver::draw_together(const Box& box, double h) {
 
 void BpmSolver::step_at_rest(const Box& box, double h) {
     step({box, {}}, h);
+    stop_discs();
+}
+
+void BpmSolver::stop_discs() {
     std::fill(v_.begin(), v_.end(), Vec2::Zero());
     std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
 }
@@ -121,8 +134,7 @@ void BpmSolver::come_to_rest(const Box& box, double h) {
         for (Vec2& v : v_) v *= keep;
         for (double& w : rim_speed_) w *= keep;
     }
-    std::fill(v_.begin(), v_.end(), Vec2::Zero());
-    std::fill(rim_speed_.begin(), rim_speed_.end(), 0.0);
+    stop_discs();
 }
 
 }  // namespace softgrain::bpm

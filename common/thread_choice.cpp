@@ -5,7 +5,7 @@
 namespace softgrain {
 
 void ThreadChoice::note(double seconds) {
-    if (never_) return;
+    if (decided_) return;
     spent_ += seconds;
     ++rounds_;
     const bool hopeless = parallel_ && spent_ > 2.0 * alone_ * (rounds_ + first_look);

@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #include "sample.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -160,17 +161,11 @@ TEST(BpmSolver, SameBitsForOneAndTwoThreads) {
     const Packing packing = square_packing(4, 4, 0.1);
     Scenario scenario = scenario_of(90);
     scenario.method_settings.at("bpm").set("tolerance", 1e-3);
-    std::vector<std::vector<Vec2>> results;
-    for (int threads : {1, 2}) {
-        omp_set_num_threads(1);
-        BpmSolver solver(scenario, packing);
-        omp_set_num_threads(threads);
-        compact(solver, packing.box, 0.3, 30);
-        results.emplace_back(solver.disc_position().begin(), solver.disc_position().end());
-        EXPECT_GT(solver.wall_force()[0].norm(), 0.0);
-    }
-    omp_set_num_threads(1);
-    EXPECT_TRUE(std::ranges::equal(results[0], results[1]));
+    testing::expect_threads_keep_bits([&] { return std::make_unique<BpmSolver>(scenario, packing); }, {1, 2},
+                                      [&](BpmSolver& solver) {
+                                          compact(solver, packing.box, 0.3, 30);
+                                          EXPECT_GT(solver.wall_force()[0].norm(), 0.0);
+                                      });
 }
 
 TEST(BpmSolver, PreparationIsTheSameForOneAndTwoThreads) {
@@ -201,6 +196,31 @@ TEST(BpmSolver, PenetrationFollowsTheTolerance) {
         EXPECT_LT(deepest, 3.0 * tolerance);
     }
     EXPECT_GT(penetration[0], 3.0 * penetration[1]);
+}
+
+TEST(BpmSolver, RefusesGrainsThatCannotBeParted) {
+    const Packing apart = square_packing(2, 1, 0.1);
+    const auto refusal = [&](const Vec2& second) {
+        Packing packing = apart;
+        packing.center[1] = second;
+        try {
+            BpmSolver(scenario_of(20), packing);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal(apart.center[1]), "");
+    const double right_wall = apart.box.position[1];
+    for (const Vec2& centre :
+         {apart.center[0], Vec2(apart.center[0] + Vec2(0.2, 0.0)), Vec2(right_wall, apart.center[1].y()),
+          Vec2(right_wall + 0.5, apart.center[1].y())}) {
+        const std::string text = refusal(centre);
+        EXPECT_NE(text.find("do not fit into the packing: two grains, or a grain and a wall"),
+                  std::string::npos)
+            << text;
+        EXPECT_NE(text.find("start from a looser packing"), std::string::npos) << text;
+    }
 }
 
 TEST(BpmSolver, TooFastAWallIsAnError) {

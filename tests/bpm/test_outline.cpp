@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 #include <numbers>
@@ -244,6 +245,40 @@ TEST(Outline, DiscsHiddenInTheirGrainNeedNoSecondLook) {
         EXPECT_EQ(quick.arcs()[k].disc, both.arcs()[k].disc);
         EXPECT_EQ(quick.arcs()[k].begin, both.arcs()[k].begin);
         EXPECT_EQ(quick.arcs()[k].end, both.arcs()[k].end);
+    }
+}
+
+/// So many discs that threads share them: a lattice of grid cells with a disc somewhere in each.
+TEST(Outline, TwoThreadsGiveTheArcsOfOne) {
+    constexpr int columns = 83, rows = 75;
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::vector<Vec2> x;
+    std::vector<double> radius;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            x.emplace_back(column + 0.3 * unit(random), row + 0.3 * unit(random));
+            radius.push_back(0.35 + 0.1 * unit(random));
+        }
+    const double rho = 0.15;
+    NeighborList near;
+    near.build(x, radius, 2.0 * rho);
+    const auto arcs_by = [&](int threads) {
+        const int before = omp_get_max_threads();
+        omp_set_num_threads(threads);
+        const Outline outline(x, radius, rho, near.pairs());
+        omp_set_num_threads(before);
+        return std::vector<ExposedArc>(outline.arcs().begin(), outline.arcs().end());
+    };
+    const std::vector<ExposedArc> one = arcs_by(1), two = arcs_by(2);
+    EXPECT_GT(one.size(), x.size() / 2);
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        const ExposedArc &a = one[k], &b = two[k];
+        EXPECT_TRUE(a.disc == b.disc && a.begin == b.begin && a.end == b.end && a.before == b.before &&
+                    a.after == b.after && a.neck == b.neck)
+            << "arc " << k << " of disc " << a.disc;
+        EXPECT_LE(one[k > 0 ? k - 1 : 0].disc, a.disc);
     }
 }
 

@@ -395,6 +395,13 @@ TEST_F(CommandLine, CompareCanMatchTheYieldStress) {
     given.back() = "bpm.attraction_stress=0.3";
     given.emplace_back("--force");
     EXPECT_NE(softgrain(given).err.find("leave one of them out"), std::string::npos);
+    auto elastic = command;
+    elastic.back() = "bpm.grain=elastic";
+    elastic.emplace_back("--force");
+    const Outcome refused = softgrain(elastic);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("bpm.bond_stiffness with `softgrain calibrate --modulus`"), std::string::npos)
+        << refused.err;
     auto without = command;
     without[3] = "sdem";
     EXPECT_EQ(softgrain(without).exit_code, 2);

@@ -56,5 +56,18 @@ TEST(ThreadChoice, AMachineThatIsFreeAgainIsUsedAgain) {
     EXPECT_GT(run(choice, 100 * ThreadChoice::window, 1.0, 0.6).share, 0.95);
 }
 
+TEST(ThreadChoice, ThreadsInAnyCaseAreUsedHoweverSlow) {
+    const ThreadsInAnyCase wanted;
+    ThreadChoice choice(2), alone(1);
+    EXPECT_NEAR(run(choice, 10 * ThreadChoice::window, 1.0, 200.0).share, 1.0, 1e-12);
+    EXPECT_EQ(run(alone, 10 * ThreadChoice::window, 1.0, 0.5).share, 0.0);
+}
+
+TEST(ThreadChoice, NoThreadsInAnyCaseOnceThatHasEnded) {
+    { const ThreadsInAnyCase wanted; }
+    ThreadChoice choice(2);
+    EXPECT_FALSE(choice.parallel());
+}
+
 }  // namespace
 }  // namespace softgrain

@@ -9,6 +9,7 @@
 #include <initializer_list>
 
 #include "common/solver.hpp"
+#include "common/thread_choice.hpp"
 
 namespace softgrain::testing {
 
@@ -57,9 +58,10 @@ void expect_restart_keeps_bits(const Make& make, const First& first, const Then&
     expect_restart_keeps_bits(make, first, then, [](Solver&, Solver&) {});
 }
 
-/// `drive` runs a new solver with each of these numbers of threads.
+/// `drive` runs a new solver with each of these numbers of threads, used from the first step on.
 template <class Make, class Drive>
 void expect_threads_keep_bits(const Make& make, std::initializer_list<int> threads, const Drive& drive) {
+    const ThreadsInAnyCase wanted;
     const int before = omp_get_max_threads();
     std::vector<Checkpoint> results;
     for (const int n : threads) {

@@ -79,14 +79,15 @@ TEST(Scale, RangeIsRobustAndStartsAtZero) {
 
 TEST(Scale, TicksAreRoundAndWithin) {
     const std::vector<std::pair<double, double>> ranges{
-        {0.0, 1.0}, {0.8231, 0.9412}, {-7.0, 3.0}, {0.0, 3e-5}};
+        {0.0, 1.0}, {0.0, 0.3}, {0.8231, 0.9412}, {-7.0, 3.0}, {0.0, 3e-5}};
     for (const auto& [min, max] : ranges) {
         const auto ticks = round_ticks(min, max);
         EXPECT_GE(ticks.size(), 3U);
         EXPECT_LE(ticks.size(), 9U);
-        EXPECT_GE(ticks.front(), min - 1e-9 * (max - min));
-        EXPECT_LE(ticks.back(), max + 1e-9 * (max - min));
+        EXPECT_GE(ticks.front(), min);
+        EXPECT_LE(ticks.back(), max);
     }
+    EXPECT_EQ(round_ticks(0.0, 0.3).back(), 0.3);
     EXPECT_EQ(tick_text(0.85, 0.05), "0.85");
     EXPECT_EQ(tick_text(0.9, 0.05), "0.90");
     EXPECT_EQ(tick_text(1e-17, 0.05), "0");

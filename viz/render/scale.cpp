@@ -80,7 +80,7 @@ std::vector<double> round_ticks(double min, double max) {
     const double spacing = round_down((max - min) / 3.5);
     std::vector<double> ticks;
     for (double k = std::ceil(min / spacing - 1e-9); k * spacing <= max + 1e-9 * spacing; k += 1.0)
-        ticks.push_back(k * spacing);
+        ticks.push_back(std::clamp(k * spacing, min, max));  // VTK drops what is outside by rounding
     return ticks;
 }
 

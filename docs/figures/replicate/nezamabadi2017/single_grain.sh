@@ -37,15 +37,15 @@ make_single_grain() {
         cat "$made/sizes.rows"
     } | table sizes
     local colour=0
-    shaded "0.16 to 0.26 mm" grain_b.csv cumulative_strain stress '"colour": 0'
-    plot figure_06 "One aggregate between two walls, mean and range of the seeds" '"label": "cumulative strain", "min": 0, "max": 0.3' \
+    shaded "mean and range of $(echo $seeds | wc -w) seeds" grain_b.csv cumulative_strain stress '"colour": 0'
+    plot figure_06 "Fig. 6: one aggregate between two walls" '"label": "cumulative strain", "min": 0, "max": 0.3' \
         '"label": "stress [F0/<a0>]", "min": 0'
     for range in a b c; do
         curve "${sizes_of[$range]} mm" grain_$range.csv cumulative_strain stress "\"colour\": $((colour++))"
     done
-    plot figure_07 "Three ranges of disc sizes, means of the seeds" '"label": "cumulative strain", "min": 0, "max": 0.3' \
+    plot figure_07 "Fig. 7: three ranges of disc sizes, means of the seeds" '"label": "cumulative strain", "min": 0, "max": 0.3' \
         '"label": "stress [F0/<a0>]", "min": 0'
-    "$softgrain" render frames --run "BPM=$runs/grain-b-1" --at 0,1 --parts --window 0.15 0.85 0 1 --width 1200 \
+    "$softgrain" render frames --run "BPM=$runs/grain-b-1" --at 0,1 --parts --field contact_force --window 0.15 0.85 0 1 --width 1200 \
         --out "$made/pictures" >/dev/null
     mv "$made/pictures/sheet.png" "$made/figure_05.png"
     rm -r "$made/pictures"
