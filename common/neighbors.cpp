@@ -16,8 +16,7 @@ CellChange cell_change(const Box& before, const Box& now) {
     CellChange change;
     const Mat2& F = change.F = now.lattice() * before.lattice().inverse();
     change.shift = now.origin() - F * before.origin();
-    const double mean = std::hypot(F(0, 0) + F(1, 1), F(0, 1)),
-                 half = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
+    const double mean = std::hypot(F(0, 0) + F(1, 1), F(0, 1)), half = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
     change.loss = std::max(0.0, 1.0 - 0.5 * (mean - half));
     return change;
 }

@@ -29,12 +29,15 @@ struct Block {
     std::vector<Arrival> arrivals;  ///< in order of the copies
     std::vector<LocalPair> pairs;   ///< of its grains with later ones, sorted
     /// Of its pairs, padded to whole batches; empty if the law has no use for them.
-    std::vector<double> k, shear_ratio, shear, dashpot, grip, moment, bond;
+    std::vector<double> k, shear_ratio, shear_compliance, shear, dashpot, grip, moment, bond;
 
     bool has_memory() const { return !shear.empty() || !dashpot.empty() || !bond.empty(); }
     bool remembers(std::size_t pair) const {
-        const auto at = [&](const std::vector<double>& memory) { return memory.empty() ? 0.0 : memory[pair]; };
-        return at(shear) != 0.0 || at(dashpot) != 0.0 || at(grip) != 0.0 || at(moment) != 0.0 || at(bond) != 0.0;
+        const auto at = [&](const std::vector<double>& memory) {
+            return memory.empty() ? 0.0 : memory[pair];
+        };
+        return at(shear) != 0.0 || at(dashpot) != 0.0 || at(grip) != 0.0 || at(moment) != 0.0 ||
+               at(bond) != 0.0;
     }
     std::size_t padded() const { return (pairs.size() + lanes - 1) / lanes * lanes; }
 };

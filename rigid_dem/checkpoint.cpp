@@ -35,7 +35,8 @@ void RigidDem::save(Checkpoint& to) const {
     to.put("state", state);
     std::vector<double> memory, at_walls;
     for (const Block& block : blocks_)
-        for (const auto array : arrays) memory.insert(memory.end(), (block.*array).begin(), (block.*array).end());
+        for (const auto array : arrays)
+            memory.insert(memory.end(), (block.*array).begin(), (block.*array).end());
     for (const auto& contacts : wall_contacts_)
         for (const WallContact& contact : contacts) put_wall(at_walls, contact.memory);
     to.put("memory", memory);
@@ -71,7 +72,10 @@ void RigidDem::load(const Checkpoint& from) {
         const auto g = static_cast<std::size_t>(order[s]);
         if (g >= n) throw InputError("checkpoint array 'order' does not fit this packing");
         order_[s] = static_cast<std::uint32_t>(g);
-        own.push_back({.x = built_at[s].x(), .y = built_at[s].y(), .radius = radius_[g], .inverse_mass = 1.0 / mass_[g]});
+        own.push_back({.x = built_at[s].x(),
+                       .y = built_at[s].y(),
+                       .radius = radius_[g],
+                       .inverse_mass = 1.0 / mass_[g]});
     }
     list_neighbors(own);
 

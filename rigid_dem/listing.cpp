@@ -13,8 +13,8 @@ namespace {
 constexpr int listings_between_sorts = 16;
 
 // Skin by motion: more skin costs work on pairs apart, less costs lists. With u the distance that the fastest
-// grain goes in a step, D the mean diameter and `listing_cost` the cost of listing a grain in units of a pair,
-// pairs_per_diameter skin / D + listing_cost 2 u / skin is least at skin = sqrt(2 listing_cost u D /
+// grain goes in a step, D the mean diameter and `listing_cost` the cost of listing a grain in units of a
+// pair, pairs_per_diameter skin / D + listing_cost 2 u / skin is least at skin = sqrt(2 listing_cost u D /
 // pairs_per_diameter).
 constexpr double listing_cost = 60.0, pairs_per_diameter = 3.4;
 constexpr double first_skin = 0.1, least_skin = 0.02, most_skin = 0.5;  ///< mean diameters
@@ -42,20 +42,20 @@ Deformation RigidDem::deformation_since_listing(double& loss) const {
 bool RigidDem::list_is_stale() {
     double loss = 0.0;
     const Deformation by = deformation_since_listing(loss);
-    double room = 0.5 * skin_ * (1.0 - loss) - loss * *std::max_element(radius_.begin(), radius_.end());
+    double room = 0.5 * skin_ * (1.0 - loss) - loss * largest_radius_;
     if (!box_.periodic)
         for (std::size_t w = 0; w < 4; ++w)
-            room = std::min(room, skin_ - std::abs(box_.position[w] - neighbors_.built_cell().position[w]) -
-                                      0.5 * skin_);
+            room = std::min(
+                room, skin_ - std::abs(box_.position[w] - neighbors_.built_cell().position[w]) - 0.5 * skin_);
     if (!(room > 0.0)) return true;
     if (stretch_margin * travelled_ < room) return false;
     const double* const before = neighbors_.built_at().data()->data();
     std::vector<double> moved2(blocks_.size());
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-        moved2[b] = largest_displacement2(&record_[blocks_[b].first_record],
-                                          before + 2 * blocks_[b].first_grain,
-                                          static_cast<int>(blocks_[b].grains), by);
+        moved2[b] =
+            largest_displacement2(&record_[blocks_[b].first_record], before + 2 * blocks_[b].first_grain,
+                                  static_cast<int>(blocks_[b].grains), by);
     travelled_ = std::sqrt(*std::max_element(moved2.begin(), moved2.end()));
     return !(stretch_margin * travelled_ < room);
 }
@@ -65,7 +65,7 @@ double RigidDem::skin_by_motion() const {
     double sum = 0.0;
     for (const double r : radius_) sum += 2.0 * r;
     const double diameter = sum / n;
-    if (law_.skin) return *law_.skin * *std::min_element(radius_.begin(), radius_.end());
+    if (law_.skin) return *law_.skin * smallest_radius_;
     if (steps_listed_ == 0) return first_skin * diameter;
     const double per_step = travelled_ / static_cast<double>(steps_listed_);
     return std::clamp(std::sqrt(2.0 * listing_cost * per_step * diameter / pairs_per_diameter),
@@ -199,25 +199,27 @@ void RigidDem::list_walls(std::size_t b) {
             const ContactStiffness stiffness =
                 stiffness_at_wall(law_, elasticity_of(order_[block.first_grain + g]));
             wall_contacts_[b].push_back({static_cast<std::uint32_t>(block.first_record + g),
-                                         static_cast<std::uint8_t>(w), stiffness, {}});
+                                         static_cast<std::uint8_t>(w),
+                                         stiffness,
+                                         {}});
         }
 }
 
 /// Stiffness of its pairs, and an empty memory.
 void RigidDem::prepare_pairs(Block& block) const {
-    const std::size_t padded = block.padded();
+    const std::size_t padded = block.padded(), count = uniform_ ? lanes : padded;
+    for (auto* array : {&block.k, &block.shear_ratio, &block.shear_compliance}) array->assign(count, 1.0);
+    const auto set = [&](std::size_t at, const ContactStiffness& own) {
+        block.k[at] = own.k;
+        block.shear_ratio[at] = own.shear_ratio;
+        block.shear_compliance[at] = 1.0 / (own.shear_ratio * own.k);
+    };
     if (uniform_) {
         const GrainElasticity any = elasticity_of(0);
-        const ContactStiffness all = stiffness_of_pair(law_, any, any);
-        block.k.assign(lanes, all.k);
-        block.shear_ratio.assign(lanes, all.shear_ratio);
+        for (std::size_t l = 0; l < lanes; ++l) set(l, stiffness_of_pair(law_, any, any));
     } else {
-        block.k.assign(padded, 1.0);
-        block.shear_ratio.assign(padded, 1.0);
         each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
-            const ContactStiffness own = stiffness_of_pair(law_, elasticity_of(i), elasticity_of(j));
-            block.k[pair] = own.k;
-            block.shear_ratio[pair] = own.shear_ratio;
+            set(pair, stiffness_of_pair(law_, elasticity_of(i), elasticity_of(j)));
         });
     }
     const auto prepare = [&](std::vector<double>& memory, bool wanted) {

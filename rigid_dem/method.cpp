@@ -8,7 +8,9 @@ namespace softgrain::rigid_dem {
 const Method& method() {
     static const Method row{
         .name = "rigid_dem",
-        .title = "rigid discs, elastic contacts with damping, friction, rolling resistance, bonds (Cundall and Strack 1979)",
+        .title =
+            "rigid discs, elastic contacts with damping, friction, rolling resistance, bonds (Cundall and "
+            "Strack 1979)",
         .keys = keys,
         .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
             refuse(scenario, packing, "rigid_dem", Feature::ellipses, "its grains are discs");

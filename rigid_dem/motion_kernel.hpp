@@ -7,7 +7,7 @@ namespace softgrain::rigid_dem {
 /// Flow that a periodic cell imposes: velocity at x is (x - origin) by the gradient, plus that of the origin.
 struct Flow {
     double origin_x = 0.0, origin_y = 0.0, origin_vx = 0.0, origin_vy = 0.0;  ///< [m], [m/s]
-    double xx = 0.0, xy = 0.0, yy = 0.0;                                      ///< dv_x/dx, dv_x/dy, dv_y/dy [1/s]
+    double xx = 0.0, xy = 0.0, yy = 0.0;  ///< dv_x/dx, dv_x/dy, dv_y/dy [1/s]
 };
 
 /// By lane, so that sums do not depend on the vectors' length.
@@ -15,7 +15,8 @@ struct MotionSums {
     using Lane = double[lanes];
     alignas(64) Lane xx, xy, yy;  ///< sum of m c (x) c, c against the flow [J]
     alignas(64) Lane work;        ///< taken out by non-viscous damping in this step [J]
-    alignas(64) Lane speed2;      ///< largest squared speed against the flow; not a number if one is not [m^2/s^2]
+    alignas(
+        64) Lane speed2;  ///< largest squared speed against the flow; not a number if one is not [m^2/s^2]
 };
 
 struct MotionBlock {

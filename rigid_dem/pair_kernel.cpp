@@ -18,7 +18,7 @@ struct Batch {
     alignas(64) Four together[lanes];    ///< j + i of spin, radius, rim_speed, inverse_mass
     alignas(64) Four difference[lanes];  ///< i - j of the same, for laws that want it
     alignas(64) Four force[lanes];       ///< fx, fy, shear, shear overlap / 2
-    alignas(64) double moment[lanes];
+    alignas(64) double fx[lanes], fy[lanes], shear[lanes], lost_torque[lanes], moment[lanes];
 };
 
 template <bool with_differences>
@@ -46,7 +46,8 @@ SOFTGRAIN_INLINE void answer(const PairBlock& block, int first, Batch& batch, co
                    rolling = features & has_rolling, adhesion = features & has_adhesion,
                    grips = friction && !Normal::constant_stiffness;
     const int at = block.uniform ? 0 : first;
-    const double *const k = block.k + at, *const shear_ratio = block.shear_ratio + at;
+    const double *const k = block.k + at, *const shear_ratio = block.shear_ratio + at,
+                        *const shear_compliance = block.shear_compliance + at;
     double *const shear = block.memory.shear + (friction ? first : 0),
                   *const dashpot = block.memory.dashpot + (damping ? first : 0),
                   *const grip = block.memory.grip + (grips ? first : 0),
@@ -69,6 +70,7 @@ SOFTGRAIN_INLINE void answer(const PairBlock& block, int first, Batch& batch, co
         in.slip = dvy * nx - dvx * ny - rim_speed + 0.5 * overlap * spins;
         in.k = k[l];
         in.shear_ratio = shear_ratio[l];
+        in.shear_compliance = shear_compliance[l];
         in.inverse_mass = batch.together[l].c[3];
         if constexpr (rolling || adhesion) {
             const double unlike = batch.difference[l].c[1];
@@ -91,10 +93,10 @@ SOFTGRAIN_INLINE void answer(const PairBlock& block, int first, Batch& batch, co
         if constexpr (rolling) held[l] = memory.moment;
         if constexpr (adhesion) bond[l] = memory.bond;
         const double fx = -force.normal * nx - force.shear * ny, fy = -force.normal * ny + force.shear * nx;
-        batch.force[l].c[0] = fx;
-        batch.force[l].c[1] = fy;
-        batch.force[l].c[2] = force.shear;
-        batch.force[l].c[3] = 0.5 * force.shear * overlap;
+        batch.fx[l] = fx;
+        batch.fy[l] = fy;
+        batch.shear[l] = force.shear;
+        batch.lost_torque[l] = 0.5 * force.shear * overlap;
         if constexpr (rolling) batch.moment[l] = force.moment;
         if constexpr (with_virial) {
             sums.virial_xx[l] += fx * dx;
@@ -109,15 +111,26 @@ SOFTGRAIN_INLINE void answer(const PairBlock& block, int first, Batch& batch, co
     }
 }
 
-template <bool with_moments>
+SOFTGRAIN_INLINE void interleave(Batch& batch) {
+#pragma omp simd
+    for (int l = 0; l < lanes; ++l) {
+        batch.force[l].c[0] = batch.fx[l];
+        batch.force[l].c[1] = batch.fy[l];
+        batch.force[l].c[2] = batch.shear[l];
+        batch.force[l].c[3] = batch.lost_torque[l];
+    }
+}
+
+template <bool rotates, bool with_moments>
 SOFTGRAIN_INLINE void scatter(const PairBlock& block, int first, const Batch& batch) {
+    constexpr int components = rotates ? 4 : 2;
     const LocalPair* const pair = block.pair + first;
     for (int l = 0; l < batch.count; ++l) {
         double* const a = &block.force[pair[l].i].fx;
         double* const b = &block.force[pair[l].j].fx;
         constexpr double on_j[4]{-1.0, -1.0, 1.0, 1.0};
-        for (int c = 0; c < 4; ++c) a[c] += batch.force[l].c[c];
-        for (int c = 0; c < 4; ++c) b[c] += on_j[c] * batch.force[l].c[c];
+        for (int c = 0; c < components; ++c) a[c] += batch.force[l].c[c];
+        for (int c = 0; c < components; ++c) b[c] += on_j[c] * batch.force[l].c[c];
         if constexpr (with_moments) {
             a[3] -= batch.moment[l];
             b[3] += batch.moment[l];
@@ -132,16 +145,17 @@ SOFTGRAIN_INLINE void each_batch(const PairBlock& block, const LawConstants& law
         batch.count = block.pairs - first < lanes ? block.pairs - first : lanes;
         gather<(features & (has_rolling | has_adhesion)) != 0>(block, first, batch);
         answer<Normal, features, with_virial>(block, first, batch, law, dt);
-        scatter<(features & has_rolling) != 0>(block, first, batch);
+        interleave(batch);
+        scatter<(features & has_friction) != 0, (features & has_rolling) != 0>(block, first, batch);
     }
 }
 
-#define SOFTGRAIN_PAIR_KERNEL(name, Normal, features)                                               \
-    SOFTGRAIN_CLONES void name(const PairBlock& block, const LawConstants& law, double dt) {        \
-        each_batch<Normal, features, false>(block, law, dt);                                        \
-    }                                                                                               \
+#define SOFTGRAIN_PAIR_KERNEL(name, Normal, features)                                                 \
+    SOFTGRAIN_CLONES void name(const PairBlock& block, const LawConstants& law, double dt) {          \
+        each_batch<Normal, features, false>(block, law, dt);                                          \
+    }                                                                                                 \
     SOFTGRAIN_CLONES void name##_virial(const PairBlock& block, const LawConstants& law, double dt) { \
-        each_batch<Normal, features, true>(block, law, dt);                                         \
+        each_batch<Normal, features, true>(block, law, dt);                                           \
     }
 
 constexpr unsigned rolling = has_friction | has_rolling, adhesion = has_friction | has_adhesion;

@@ -24,9 +24,9 @@ struct PairBlock {
     ForceSum* force;           ///< of the same; added to
     const LocalPair* pair;
     int pairs;
-    const double* k;            ///< of the normal law, each pair, or one batch for all
-    const double* shear_ratio;  ///< tangential / normal stiffness, the same
-    bool uniform;               ///< k and shear_ratio are one batch for all
+    // As in ContactInput, of each pair, or one batch for all if they are `uniform`.
+    const double *k, *shear_ratio, *shear_compliance;
+    bool uniform;
     PairMemory memory;
     PairSums* sums;  ///< added to
 };

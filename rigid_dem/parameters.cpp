@@ -30,7 +30,12 @@ ContactStiffness hertz(const Parameters& law, double contact_modulus, double com
 std::span<const KeySpec> keys() {
     using enum KeyType;
     static const std::vector<KeySpec> table{
-        {"normal_law", text, Value(std::string("linear")), "", "elastic normal force", any_number,
+        {"normal_law",
+         text,
+         Value(std::string("linear")),
+         "",
+         "elastic normal force",
+         any_number,
          {"linear", "hertz"}},
         {"stiffness", number, 1.0, "E", "stiffness of one grain against a rigid wall; a pair has half of it",
          positive},
@@ -46,9 +51,13 @@ std::span<const KeySpec> keys() {
         {"shear_cohesion", number, 1.0, "",
          "shear strength that material.cohesion adds to the Coulomb limit / its tensile strength",
          not_negative},
-        {"bonds", text, Value(std::string("always")), "",
+        {"bonds",
+         text,
+         Value(std::string("always")),
+         "",
          "contacts that hold material.cohesion: all that form, or those of the start that have not broken",
-         any_number, {"always", "start"}},
+         any_number,
+         {"always", "start"}},
         {"nonviscous_damping", number, 0.0, "",
          "Cundall's: share by which forces that work are reduced, and others increased",
          Range{0.0, 1.0, false, true}},
@@ -113,8 +122,9 @@ ContactStiffness stiffness_of_pair(const Parameters& law, const GrainElasticity&
                                    const GrainElasticity& b) {
     if (!law.hertz)
         return {in_series(law.stiffness * a.modulus, law.stiffness * b.modulus), *law.shear_ratio};
-    return hertz(law, in_series(plane_modulus(a), plane_modulus(b)), shear_compliance(a) + shear_compliance(b),
-                 in_series(a.radius, b.radius), a.radius + b.radius);
+    return hertz(law, in_series(plane_modulus(a), plane_modulus(b)),
+                 shear_compliance(a) + shear_compliance(b), in_series(a.radius, b.radius),
+                 a.radius + b.radius);
 }
 
 ContactStiffness stiffness_at_wall(const Parameters& law, const GrainElasticity& grain) {

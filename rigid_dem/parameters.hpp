@@ -43,8 +43,8 @@ struct ContactStiffness {
 
 /// A grain's part in the stiffness of its contacts.
 struct GrainElasticity {
-    double radius;         ///< [m]
-    double modulus;        ///< E [N/m]
+    double radius;   ///< [m]
+    double modulus;  ///< E [N/m]
     double poisson_ratio;
 };
 

@@ -13,7 +13,8 @@ double linear_restitution(double zeta) {
     return std::exp(-zeta * duration);
 }
 
-/// Of q'' = -q^(3/2) - 2 zeta sqrt(3/2) q^(1/4) q', q(0) = 0, q'(0) = 1, until the force is zero; free of units.
+/// Of q'' = -q^(3/2) - 2 zeta sqrt(3/2) q^(1/4) q', q(0) = 0, q'(0) = 1, until the force is zero; free of
+/// units.
 double hertz_restitution(double zeta) {
     constexpr double dt = 1e-3;
     const auto force = [&](double q, double rate) {

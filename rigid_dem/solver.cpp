@@ -40,6 +40,8 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
       radius_(packing.radius),
       thread_choice_(omp_get_max_threads()) {
     const std::size_t n = packing.size();
+    smallest_radius_ = *std::min_element(radius_.begin(), radius_.end());
+    largest_radius_ = *std::max_element(radius_.begin(), radius_.end());
     for (std::size_t c = 0; c < scenario.class_count(); ++c) material_.push_back(scenario.material_of(c));
     if (material_.size() > 1)
         for (std::size_t g = 0; g < n; ++g)
@@ -121,8 +123,7 @@ void RigidDem::move(const WallMotion& walls, double dt) {
         if (std::isnan(fastest2_)) break;
     }
     travelled_ += std::sqrt(fastest2_) * dt;
-    const double smallest = *std::min_element(radius_.begin(), radius_.end());
-    if (!(fastest2_ * dt * dt < smallest * smallest)) throw_too_fast(walls, dt);
+    if (!(fastest2_ * dt * dt < smallest_radius_ * smallest_radius_)) throw_too_fast(walls, dt);
 }
 
 /// If a grain has moved more than its radius against the flow.
@@ -177,6 +178,7 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
              .pairs = static_cast<int>(block.pairs.size()),
              .k = block.k.data(),
              .shear_ratio = block.shear_ratio.data(),
+             .shear_compliance = block.shear_compliance.data(),
              .uniform = uniform_,
              .memory = {block.shear.data(), block.dashpot.data(), block.grip.data(), block.moment.data(),
                         block.bond.data()},
@@ -226,8 +228,7 @@ void RigidDem::collect_arrivals(const Block& block) {
 }
 
 std::optional<std::string> RigidDem::outside_validity() const {
-    const double smallest = *std::min_element(radius_.begin(), radius_.end());
-    if (largest_overlap_ <= law_.overlap_limit * smallest) return std::nullopt;
+    if (largest_overlap_ <= law_.overlap_limit * smallest_radius_) return std::nullopt;
     std::optional<std::string> found;
     const auto look = [&](std::size_t grain, const auto& partner, double overlap, double radius) {
         if (found || overlap <= law_.overlap_limit * radius) return;
@@ -236,14 +237,16 @@ std::optional<std::string> RigidDem::outside_validity() const {
     };
     for (const Block& block : blocks_)
         each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
-            look(std::min(i, j), [&] { return fmt::format("grain {}", std::max(i, j)); },
-                 overlap(block, pair), std::min(radius_[i], radius_[j]));
+            look(
+                std::min(i, j), [&] { return fmt::format("grain {}", std::max(i, j)); }, overlap(block, pair),
+                std::min(radius_[i], radius_[j]));
         });
     if (found || box_.periodic) return found;
     each_grain([&](std::size_t grain, std::size_t r) {
         for (int w = 0; w < 4; ++w)
-            look(grain, [&] { return fmt::format("the {} wall", wall_names[static_cast<std::size_t>(w)]); },
-                 wall_overlap(record_[r], w, box_), record_[r].radius);
+            look(
+                grain, [&] { return fmt::format("the {} wall", wall_names[static_cast<std::size_t>(w)]); },
+                wall_overlap(record_[r], w, box_), record_[r].radius);
     });
     return found;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
-// solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability limit.
-// periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
+// solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability
+// limit. periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
 #include <algorithm>
 
 #include "common/neighbors.hpp"
@@ -102,7 +102,7 @@ class RigidDem final : public Solver {
 
     Parameters law_;
     PairKernel kernel_;
-    bool uniform_;  ///< all pairs are equally stiff
+    bool uniform_;      ///< all pairs are equally stiff
     Box box_;           ///< as the loop moves it
     WallMotion walls_;  ///< of the last step, its box at the end of it
     int flips_ = 0;     ///< of a periodic cell's basis against box_
@@ -111,8 +111,9 @@ class RigidDem final : public Solver {
 
     // grains by number [n]
     std::vector<double> radius_, mass_, reference_area_;
-    std::vector<std::uint8_t> grain_class_;  ///< empty if there is one
-    std::vector<Material> material_;         ///< by class
+    double smallest_radius_ = 0.0, largest_radius_ = 0.0;  ///< [m]
+    std::vector<std::uint8_t> grain_class_;                ///< empty if there is one
+    std::vector<Material> material_;                       ///< by class
     GrainElasticity elasticity_of(std::size_t grain) const;
 
     // grains by record: blocks with their copies
@@ -126,11 +127,11 @@ class RigidDem final : public Solver {
     NeighborList neighbors_;
     double skin_ = 0.0;
     int listings_ = 0;
-    double travelled_ = 0.0;       ///< bound on motion against the flow since the listing [m]
-    long long steps_listed_ = 0;   ///< steps since then
-    long long steps_measured_ = 0; ///< since the last look at the frequency
-    double frequency2_ = 0.0;      ///< bound on omega^2 [1/s^2]
-    double fastest2_ = 0.0;        ///< squared speed against the flow in the last step [m^2/s^2]
+    double travelled_ = 0.0;        ///< bound on motion against the flow since the listing [m]
+    long long steps_listed_ = 0;    ///< steps since then
+    long long steps_measured_ = 0;  ///< since the last look at the frequency
+    double frequency2_ = 0.0;       ///< bound on omega^2 [1/s^2]
+    double fastest2_ = 0.0;         ///< squared speed against the flow in the last step [m^2/s^2]
     ThreadChoice thread_choice_;
 
     // sums of the last step
@@ -157,9 +158,9 @@ void RigidDem::each_pair(const Block& block, const Visit& visit) const {
     const auto grain_of = [&](std::size_t local) -> std::size_t {
         if (local < block.grains) return order_[block.first_grain + local];
         const std::uint32_t record = block.halo[local - block.grains].record;
-        const auto after = std::upper_bound(
-            blocks_.begin(), blocks_.end(), record,
-            [](std::uint32_t r, const Block& b) { return r < b.first_record; });
+        const auto after =
+            std::upper_bound(blocks_.begin(), blocks_.end(), record,
+                             [](std::uint32_t r, const Block& b) { return r < b.first_record; });
         const Block& home = *(after - 1);
         return order_[home.first_grain + record - home.first_record];
     };

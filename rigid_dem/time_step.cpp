@@ -48,8 +48,8 @@ void RigidDem::find_frequency() {
     double shear_ratio = 0.0;
     for (const Block& block : blocks_)
         if (law_.rotates)
-            shear_ratio = std::max(shear_ratio,
-                                   *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
+            shear_ratio =
+                std::max(shear_ratio, *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
     const FrequencyBound bound(shear_ratio, law_.between_grains.rolling_stiffness);
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) add_stiffness(b, stiffness);
@@ -67,8 +67,8 @@ void RigidDem::find_frequency() {
             const ForceSum& own = stiffness[block.first_record + g];
             const double per_mass = record(block, g).inverse_mass;
             const double soon = 2.0 * stiffness_soon(order_[block.first_grain + g]);
-            largest[b] = std::max({largest[b], bound(own.fx, own.fy, own.shear, per_mass),
-                                   bound(soon, 0.0, 0.0, per_mass)});
+            largest[b] = std::max(
+                {largest[b], bound(own.fx, own.fy, own.shear, per_mass), bound(soon, 0.0, 0.0, per_mass)});
         }
     }
     frequency2_ = *std::max_element(largest.begin(), largest.end());
@@ -111,7 +111,8 @@ void RigidDem::add_stiffness(std::size_t b, std::vector<ForceSum>& stiffness) co
     }
     for (const WallContact& contact : wall_contacts_[b]) {
         const double into = wall_overlap(record_[contact.record], contact.wall, box_);
-        if (into > 0.0) add(contact.record, 0.5 * tangent(contact.stiffness.k, into), wall_normal(contact.wall));
+        if (into > 0.0)
+            add(contact.record, 0.5 * tangent(contact.stiffness.k, into), wall_normal(contact.wall));
     }
 }
 

@@ -119,14 +119,16 @@ void RigidDem::list_contacts() {
             const double into = overlap(block, pair);
             const ContactMemory memory = memory_of(block, pair);
             if (into <= 0.0 && memory.bond == 0.0) return;
-            const GrainRecord &from = record(block, block.pairs[pair].i), &to = record(block, block.pairs[pair].j);
+            const GrainRecord &from = record(block, block.pairs[pair].i),
+                              &to = record(block, block.pairs[pair].j);
             const double turn = i < j ? 1.0 : -1.0;
             const Vec2 n = turn * Vec2{to.x - from.x, to.y - from.y}.normalized();
             const ContactForce answer = pair_force(block, pair);
             const Vec2 force = answer.shear * perpendicular(n) - answer.normal * n;
             const std::size_t first = std::min(i, j);
             const Vec2 at = x_[first] + (radius_[first] - 0.5 * into) * n;
-            contacts_.push_back({static_cast<int>(first), static_cast<int>(std::max(i, j)), at, n, force, 0.0});
+            contacts_.push_back(
+                {static_cast<int>(first), static_cast<int>(std::max(i, j)), at, n, force, 0.0});
         });
         for (WallContact contact : wall_contacts_[b]) {  // a copy: its memory is not to change
             const GrainRecord& g = record_[contact.record];
@@ -157,6 +159,7 @@ ContactForce RigidDem::pair_force(const Block& block, std::size_t pair) const {
                           .spin_difference = 0.0,
                           .k = stiffness.k,
                           .shear_ratio = stiffness.shear_ratio,
+                          .shear_compliance = 1.0 / (stiffness.shear_ratio * stiffness.k),
                           .inverse_mass = a.inverse_mass + b.inverse_mass,
                           .rolling_radius = in_series(a.radius, b.radius),
                           .adhesive_length = 2.0 * std::min(a.radius, b.radius)};

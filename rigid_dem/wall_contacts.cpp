@@ -18,6 +18,7 @@ ContactForce wall_force(WallContact& contact, const GrainRecord& grain, const Wa
         .spin_difference = grain.spin,
         .k = contact.stiffness.k,
         .shear_ratio = contact.stiffness.shear_ratio,
+        .shear_compliance = 1.0 / (contact.stiffness.shear_ratio * contact.stiffness.k),
         .inverse_mass = grain.inverse_mass,
         .rolling_radius = grain.radius,
         .adhesive_length = 2.0 * grain.radius};

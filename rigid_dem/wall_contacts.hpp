@@ -21,8 +21,8 @@ struct WallContact {
 
 struct WallSums {
     std::array<Vec2, 4> force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};  ///< on walls [N]
-    double friction_loss = 0.0, damping_loss = 0.0;                                      ///< in this step [J]
-    double overlap = 0.0;                                                                ///< largest [m]
+    double friction_loss = 0.0, damping_loss = 0.0;                                     ///< in this step [J]
+    double overlap = 0.0;                                                               ///< largest [m]
 };
 
 /// Positive where the grain touches the wall [m].

@@ -25,8 +25,7 @@ inline Packing packed_cell(int n, std::uint64_t seed) {
     }
     const double side = std::sqrt(area / packing_fraction);
     cell.box = Box{{0.0, side, 0.0, side}, true};
-    for (int i = 0; i < n; ++i)
-        cell.center.push_back({random.between(0.0, side), random.between(0.0, side)});
+    for (int i = 0; i < n; ++i) cell.center.push_back({random.between(0.0, side), random.between(0.0, side)});
     constexpr double balance = 1e-6, clear = 1e-9;
     constexpr int most_steps = 20000;
     OverlapEnergy relaxed(cell.radius, cell.center, cell.box);

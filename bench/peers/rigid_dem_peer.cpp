@@ -1,7 +1,8 @@
-// Rigid DEM on the sample that its peers are given: makes it, runs it, says what it measured as one line of CSV.
-#include <CLI/CLI.hpp>
+// Rigid DEM on the sample that its peers are given: makes it, runs it, says what it measured as one line of
+// CSV.
 #include <malloc.h>
 #include <sys/resource.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstdio>
@@ -24,6 +25,7 @@ struct Options {
     int grains = 10000, tiles = 1, steps = 1000, rounds = 1;
     double friction = 0.0, restitution = 1.0, speed = 1.0, shear_rate = 0.0;
     std::string lammps;
+    bool memory = false;
 };
 
 Scenario scenario_of(const Options& o) {
@@ -42,8 +44,10 @@ Scenario scenario_of(const Options& o) {
 /// For LAMMPS's read_data, atom style sphere.
 void write_lammps(const std::string& path, const Packing& p, const std::vector<Vec2>& v) {
     std::ofstream file(path);
-    fmt::print(file, "discs\n\n{} atoms\n1 atom types\n0 {} xlo xhi\n0 {} ylo yhi\n-0.5 0.5 zlo zhi\n0 0 0 xy xz yz\n",
-               p.size(), p.box.width(), p.box.height());
+    fmt::print(
+        file,
+        "discs\n\n{} atoms\n1 atom types\n0 {} xlo xhi\n0 {} ylo yhi\n-0.5 0.5 zlo zhi\n0 0 0 xy xz yz\n",
+        p.size(), p.box.width(), p.box.height());
     fmt::print(file, "\nAtoms # sphere\n\n");
     for (std::size_t i = 0; i < p.size(); ++i)
         fmt::print(file, "{} 1 {} {} {} {} 0\n", i + 1, 2.0 * p.radius[i], density, p.center[i].x(),
@@ -62,15 +66,27 @@ double peak_memory() {  // [bytes]
 int run(const Options& o) {
     const Packing packing = tiled(packed_cell(o.grains, 1), o.tiles);
     std::vector<Vec2> velocity = agitation(packing.size(), o.speed, 2);
-    if (o.shear_rate != 0.0)
-        for (std::size_t i = 0; i < packing.size(); ++i) velocity[i].x() += o.shear_rate * packing.center[i].y();
     if (!o.lammps.empty()) {
+        for (std::size_t i = 0; i < packing.size(); ++i)  // we start with the flow of the cell by ourselves
+            velocity[i].x() += o.shear_rate * packing.center[i].y();
         write_lammps(o.lammps, packing, velocity);
         return 0;
     }
     const double before = peak_memory();
     rigid_dem::RigidDem dem(scenario_of(o), packing);
     WallMotion motion{packing.box, {}, o.shear_rate * packing.box.height()};
+    const auto advance = [&] {
+        for (int k = 0; k < o.steps; ++k) {
+            dem.advance(motion, dt);
+            motion.box = motion.after(dt);
+        }
+    };
+    if (o.memory) {
+        advance();
+        fmt::print("memory,{},{:.0f}\n", packing.size(),
+                   (peak_memory() - before) / static_cast<double>(packing.size()));
+        return 0;
+    }
     // Leap-frog begins half a step back.
     const std::vector<double> at_rest(packing.size(), 0.0);
     dem.set_velocity(velocity, at_rest);
@@ -86,19 +102,16 @@ int run(const Options& o) {
     for (int round = 0; round < o.rounds; ++round) {
         const auto began = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
-        for (int k = 0; k < o.steps; ++k) {
-            dem.advance(motion, dt);
-            motion.box = motion.after(dt);
-        }
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        advance();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         const double cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-        const double memory = (peak_memory() - before) / static_cast<double>(packing.size());
         const GrainView view = dem.view(Need::contacts);
         const Mat2 stress = dem.cell_stress();
         const double n = static_cast<double>(packing.size()), work = n * o.steps;
-        fmt::print("softgrain,{},{},{:.4f},{:.4f},{:.4g},{:.10g},{:.10g},{:.10g},{:.10g},{:.8f},{:.0f},{}\n",
+        fmt::print("softgrain,{},{},{:.4f},{:.4f},{:.4g},{:.10g},{:.10g},{:.10g},{:.10g},{:.8f},{}\n",
                    packing.size(), o.steps, seconds, cpu_seconds, work / seconds, view.energy.kinetic / n,
-                   view.energy.elastic / n, stress(0, 0), stress(1, 1), coordination(view).all, memory,
+                   view.energy.elastic / n, stress(0, 0), stress(1, 1), coordination(view).all,
                    dem.listings());
     }
     return 0;
@@ -119,6 +132,7 @@ int main(int argc, char** argv) {
     app.add_option("--speed", o.speed, "root mean square at the start [m/s]");
     app.add_option("--shear-rate", o.shear_rate, "[1/s]");
     app.add_option("--lammps", o.lammps, "write the sample as LAMMPS data here, and do not run");
+    app.add_flag("--memory", o.memory, "say what rigid DEM holds at most, in bytes a disc, and no more");
     CLI11_PARSE(app, argc, argv);
     return softgrain::peers::run(o);
 }

@@ -15,8 +15,8 @@ enum ContactPart : unsigned {
 
 /// The same for all contacts of a kind: between grains, or with walls.
 struct LawConstants {
-    double damping = 0.0;         ///< twice the share of critical damping
-    double friction = 0.0;        ///< Coulomb coefficient
+    double damping = 0.0;            ///< twice the share of critical damping
+    double friction = 0.0;           ///< Coulomb coefficient
     double rolling_friction = 0.0;   ///< largest moment / (N rolling radius)
     double rolling_stiffness = 0.0;  ///< k_r / (k_t rolling radius^2)
     double adhesion = 0.0;           ///< largest pull / adhesive length [N/m]

@@ -12,15 +12,16 @@ namespace softgrain::rigid_dem {
 
 /// n points from i to j, s = n turned by +90 degrees.
 struct ContactInput {
-    double overlap;          ///< negative if apart [m]
-    double closing;          ///< speed of approach [m/s]
-    double slip;             ///< velocity of j's surface against i's along s [m/s]
-    double spin_difference;  ///< of i against j [1/s]
-    double k;                ///< of the normal law
-    double shear_ratio;      ///< tangential / normal stiffness
-    double inverse_mass;     ///< 1/m_i + 1/m_j [1/kg]
-    double rolling_radius;   ///< R_i R_j / (R_i + R_j) [m]
-    double adhesive_length;  ///< diameter of the smaller grain [m]
+    double overlap;           ///< negative if apart [m]
+    double closing;           ///< speed of approach [m/s]
+    double slip;              ///< velocity of j's surface against i's along s [m/s]
+    double spin_difference;   ///< of i against j [1/s]
+    double k;                 ///< of the normal law
+    double shear_ratio;       ///< tangential / normal stiffness
+    double shear_compliance;  ///< 1 / tangential stiffness, if that is constant [m/N]
+    double inverse_mass;      ///< 1/m_i + 1/m_j [1/kg]
+    double rolling_radius;    ///< R_i R_j / (R_i + R_j) [m]
+    double adhesive_length;   ///< diameter of the smaller grain [m]
 };
 
 /// What a contact remembers from the last step.
@@ -42,8 +43,8 @@ struct ContactForce {
 /// Forces after a step dt, and the memory with them.
 /// Damping: c = 2 zeta sqrt(m_eff k), k the present stiffness, so that restitution does not depend on speed
 /// (of Hertz contacts too: Antypov and Elliott 2011, EPL 94, 50004).
-/// Friction: t += k_t slip dt, |t| <= mu N (DEM course, "Coulomb's friction"). Where k_t falls with the overlap
-/// t falls with it, so that no energy is gained (Mindlin without micro-slip; Walton and Braun 1986).
+/// Friction: t += k_t slip dt, |t| <= mu N (DEM course, "Coulomb's friction"). Where k_t falls with the
+/// overlap t falls with it, so that no energy is gained (Mindlin without micro-slip; Walton and Braun 1986).
 /// Rolling: m -= k_r (w_i - w_j) dt, |m| <= mu_r R N (Iwashita and Oda 1998; type C of Ai et al. 2011).
 /// Adhesion: a bond holds a pull up to `adhesion`, and adds to the Coulomb limit; beyond either it breaks.
 /// Losses: work of the mean force over the step, less the change of the stored energy.
@@ -87,9 +88,9 @@ SOFTGRAIN_INLINE ContactForce contact_force(const ContactInput& in, ContactMemor
         }
         const double shear = std::min(std::max(trial, -limit), limit);
         if constexpr (Normal::constant_stiffness) {
-            const double slid = increment - (shear - before) / grip;
+            const double slid = increment - (shear - before) * in.shear_compliance;
             const double lost = shear == trial ? 0.0 : 0.5 * (before + shear) * slid;
-            out.friction_loss = touching ? lost : 0.5 * before * before / grip;
+            out.friction_loss = touching ? lost : 0.5 * before * before * in.shear_compliance;
         } else {
             const double stored = memory.grip > 0.0 ? 0.5 * memory.shear * memory.shear / memory.grip : 0.0;
             const double change = 0.5 * (memory.shear + shear) * increment - 0.5 * shear * shear / grip;
