@@ -9,6 +9,12 @@ namespace {
 constexpr std::size_t worth_threads = 20'000;        ///< grains of a build
 constexpr std::size_t worth_stale_threads = 50'000;  ///< grains of a look: it takes 2 ns for each
 constexpr std::size_t blocks = 32;
+constexpr std::size_t pairs_expected = 3;  ///< of a grain, to make room for at once
+
+template <class... Vectors>
+void free_all(Vectors&... vectors) {
+    ((vectors = Vectors()), ...);
+}
 
 }  // namespace
 
@@ -28,6 +34,7 @@ void NeighborList::find_pairs() {
 #pragma omp parallel for schedule(dynamic) if (n > worth_threads)
     for (std::size_t b = 0; b < blocks; ++b) {
         found_[b].clear();
+        if (lean_) found_[b].reserve(pairs_expected * (n / blocks + 1));
         grid_.find(b * n / blocks, (b + 1) * n / blocks, found_[b]);
     }
 }
@@ -38,18 +45,29 @@ void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach,
 
 void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach, double skin,
                          const Box& cell) {
-    skin_ = skin;
-    built_cell_ = cell;
     built_at_.assign(x.begin(), x.end());
     built_reach_.assign(reach.begin(), reach.end());
+    build_pairs(skin, cell);
+}
+
+void NeighborList::build(std::vector<Vec2>&& x, std::vector<double>&& reach, double skin, const Box& cell) {
+    built_at_ = std::move(x);
+    built_reach_ = std::move(reach);
+    build_pairs(skin, cell);
+}
+
+void NeighborList::build_pairs(double skin, const Box& cell) {
+    skin_ = skin;
+    built_cell_ = cell;
     pairs_.clear();
     images_.clear();
-    if (x.empty()) return;
-    grid_.build(x, reach, skin, cell);
+    if (built_at_.empty()) return;
+    grid_.build(built_at_, built_reach_, skin, cell);
     find_pairs();
+    if (lean_) grid_ = {};
 
     // Counting sort by i, then each grain's partners by j.
-    const std::size_t n = x.size();
+    const std::size_t n = built_at_.size();
     start_.assign(n + 1, 0);
     for (const auto& block : found_)
         for (const FoundPair& p : block) ++start_[static_cast<std::size_t>(p.i) + 1];
@@ -58,6 +76,7 @@ void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach,
     fill_.assign(start_.begin(), start_.end() - 1);
     for (const auto& block : found_)
         for (const FoundPair& p : block) partner_[fill_[static_cast<std::size_t>(p.i)]++] = {p.j, p.image};
+    if (lean_) free_all(found_, fill_);
 
     pairs_.resize(partner_.size());
     if (cell.periodic) images_.resize(partner_.size());
@@ -70,6 +89,11 @@ void NeighborList::build(std::span<const Vec2> x, std::span<const double> reach,
             if (cell.periodic) images_[k] = partner_[k].image;
         }
     }
+    if (lean_) free_all(partner_, start_);
+}
+
+void NeighborList::forget_pairs() {
+    free_all(pairs_, images_);
 }
 
 bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach) const {

@@ -30,17 +30,25 @@ CellChange cell_change(const Box& before, const Box& now);
 /// number of threads; made for size ratios up to 100 and beyond.
 class NeighborList {
   public:
+    /// A lean list frees what it works with as soon as it can, instead of keeping it for the next build.
+    explicit NeighborList(bool lean = false) : lean_(lean) {}
+
     /// x [n] [m]; reach [n] bounding radii [m]; skin > 0 [m].
     void build(std::span<const Vec2> x, std::span<const double> reach, double skin);
     /// The same in a periodic cell (with walls if it is not periodic). Grains may lie outside the cell.
     /// Throws InputError if the cell is so small that a pair could meet twice.
     void build(std::span<const Vec2> x, std::span<const double> reach, double skin, const Box& cell);
+    /// The same with positions and reaches that the list may keep.
+    void build(std::vector<Vec2>&& x, std::vector<double>&& reach, double skin, const Box& cell);
 
     /// True if a pair not in the list could touch: two grains together have eaten up the skin.
     bool stale(std::span<const Vec2> x, std::span<const double> reach) const;
     /// The same in a periodic cell, by the lattice vectors of the build (moved since, but not flipped).
     /// Motion along with the cell does not count, its deformation does.
     bool stale(std::span<const Vec2> x, std::span<const double> reach, const Box& cell) const;
+
+    /// Frees the pairs; stale() goes on to work.
+    void forget_pairs();
 
     std::span<const Pair> pairs() const { return pairs_; }
     /// [pairs] The vector from i to j is x_j - x_i + cell.image(images()[k]); empty without a periodic cell.
@@ -53,8 +61,10 @@ class NeighborList {
     std::span<const double> built_reach() const { return built_reach_; }
 
   private:
+    void build_pairs(double skin, const Box& cell);
     void find_pairs();
 
+    bool lean_;
     double skin_ = 0.0;
     Box built_cell_;
     std::vector<Pair> pairs_;

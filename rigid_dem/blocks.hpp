@@ -2,6 +2,7 @@
 // Grains in spatial order, cut into blocks that a core's own cache holds. A block has copies of the grains
 // outside that its pairs reach, shifted into the right image; so nothing in a pair's work knows of other
 // blocks, threads or periodic cells.
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -31,16 +32,12 @@ struct Block {
     /// Of its pairs, padded to whole batches; empty if the law has no use for them.
     std::vector<double> k, shear_ratio, shear_compliance, shear, dashpot, grip, moment, bond;
 
-    bool has_memory() const { return !shear.empty() || !dashpot.empty() || !bond.empty(); }
-    bool remembers(std::size_t pair) const {
-        const auto at = [&](const std::vector<double>& memory) {
-            return memory.empty() ? 0.0 : memory[pair];
-        };
-        return at(shear) != 0.0 || at(dashpot) != 0.0 || at(grip) != 0.0 || at(moment) != 0.0 ||
-               at(bond) != 0.0;
-    }
     std::size_t padded() const { return (pairs.size() + lanes - 1) / lanes * lanes; }
 };
+
+/// What contacts remember.
+inline constexpr std::array memories{&Block::shear, &Block::dashpot, &Block::grip, &Block::moment,
+                                     &Block::bond};
 
 inline constexpr std::size_t grains_per_block = 1024;
 

@@ -5,8 +5,6 @@
 namespace softgrain::rigid_dem {
 namespace {
 
-constexpr std::array arrays{&Block::shear, &Block::dashpot, &Block::grip, &Block::moment, &Block::bond};
-
 void put_wall(std::vector<double>& to, const ContactMemory& m) {
     to.insert(to.end(), {m.shear, m.dashpot, m.grip, m.moment, m.bond});
 }
@@ -35,7 +33,7 @@ void RigidDem::save(Checkpoint& to) const {
     to.put("state", state);
     std::vector<double> memory, at_walls;
     for (const Block& block : blocks_)
-        for (const auto array : arrays)
+        for (const auto array : memories)
             memory.insert(memory.end(), (block.*array).begin(), (block.*array).end());
     for (const auto& contacts : wall_contacts_)
         for (const WallContact& contact : contacts) put_wall(at_walls, contact.memory);
@@ -67,17 +65,12 @@ void RigidDem::load(const Checkpoint& from) {
     read("order", order, n);
     std::vector<Vec2> built_at;
     read("built_at", built_at, n);
-    std::vector<GrainRecord> own;
     for (std::size_t s = 0; s < n; ++s) {
-        const auto g = static_cast<std::size_t>(order[s]);
-        if (g >= n) throw InputError("checkpoint array 'order' does not fit this packing");
-        order_[s] = static_cast<std::uint32_t>(g);
-        own.push_back({.x = built_at[s].x(),
-                       .y = built_at[s].y(),
-                       .radius = radius_[g],
-                       .inverse_mass = 1.0 / mass_[g]});
+        if (order[s] < 0 || static_cast<std::size_t>(order[s]) >= n)
+            throw InputError("checkpoint array 'order' does not fit this packing");
+        order_[s] = static_cast<std::uint32_t>(order[s]);
     }
-    list_neighbors(own);
+    list_neighbors(std::move(built_at));
 
     read("state", values, 5 * n);
     std::size_t next = 0;
@@ -88,11 +81,11 @@ void RigidDem::load(const Checkpoint& from) {
     });
     std::size_t size = 0;
     for (const Block& block : blocks_)
-        for (const auto array : arrays) size += (block.*array).size();
+        for (const auto array : memories) size += (block.*array).size();
     read("memory", values, size);
     auto memory = values.begin();
     for (Block& block : blocks_)
-        for (const auto array : arrays)
+        for (const auto array : memories)
             for (double& one : block.*array) one = *memory++;
     size = 0;
     for (const auto& contacts : wall_contacts_) size += 5 * contacts.size();

@@ -13,6 +13,11 @@ struct alignas(64) GrainRecord {
     double inverse_mass = 0.0;                    ///< [1/kg]
 };
 
+/// Velocities of a grain, half a step behind its position.
+struct GrainMotion {
+    double vx, vy, spin;  ///< [m/s], [1/s]
+};
+
 /// Sum over the contacts of a grain.
 struct alignas(32) ForceSum {
     double fx = 0.0, fy = 0.0;  ///< [N]

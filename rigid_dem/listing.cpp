@@ -1,6 +1,7 @@
 // Neighbour list, blocks, and what contacts remember across a new list.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "common/space_order.hpp"
@@ -72,59 +73,53 @@ double RigidDem::skin_by_motion() const {
                       least_skin * diameter, most_skin * diameter);
 }
 
-/// Contacts that remember something, by grain with the smaller number.
+/// What contacts remember, by the grain with the smaller number.
 struct RigidDem::ContactBook {
-    struct Entry {
-        std::uint32_t partner;      ///< number of the other grain, or n + wall
-        std::uint32_t block, pair;  ///< where its memory lies
-        bool turned;                ///< the partner is the first of the pair
-    };
-    std::vector<std::uint32_t> start;  ///< [n + 1] into entry
-    std::vector<Entry> entry;
-    std::vector<Block> blocks;
-    std::vector<std::vector<WallContact>> walls;
-
-    const Entry* find(std::size_t grain, std::size_t partner) const {
-        if (start.empty()) return nullptr;
-        for (std::uint32_t e = start[grain]; e < start[grain + 1]; ++e)
-            if (entry[e].partner == partner) return &entry[e];
-        return nullptr;
-    }
+    std::vector<std::uint32_t> start;    ///< [n + 1] into partner
+    std::vector<std::uint32_t> partner;  ///< number of the other grain
+    std::vector<double> value;  ///< of each, `values` numbers; a moment is that on the smaller number
+    std::size_t values = 0;
+    std::map<std::pair<std::size_t, int>, ContactMemory> at_walls;  ///< by grain and wall
 };
 
-/// Takes blocks and walls out of use.
-RigidDem::ContactBook RigidDem::close_book() {
+/// True if the pair remembers nothing.
+bool RigidDem::forgets(const Block& block, std::size_t pair) const {
+    return std::all_of(memories.begin(), memories.end(), [&](const auto memory) {
+        return (block.*memory).empty() || (block.*memory)[pair] == 0.0;
+    });
+}
+
+RigidDem::ContactBook RigidDem::open_book() const {
     ContactBook book;
     const std::size_t n = radius_.size();
-    book.start.assign(n + 1, 0);
+    const auto& any = blocks_.front();
+    for (const auto memory : memories) book.values += (any.*memory).empty() ? 0 : 1;
+    for (std::size_t b = 0; b < wall_contacts_.size(); ++b)
+        for (const WallContact& contact : wall_contacts_[b])
+            book.at_walls[{grain_of(blocks_[b], contact), contact.wall}] = contact.memory;
+    if (book.values == 0) return book;
+
     const auto each_remembered = [&](const auto& visit) {
-        for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            const Block& block = blocks_[b];
-            if (!block.has_memory()) continue;
+        for (const Block& block : blocks_)
             each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
-                if (!block.remembers(pair)) return;
-                visit(std::min(i, j), std::max(i, j), b, pair, i > j);
+                if (!forgets(block, pair)) visit(block, pair, i, j);
             });
-        }
-        for (std::size_t b = 0; b < wall_contacts_.size(); ++b)
-            for (std::size_t c = 0; c < wall_contacts_[b].size(); ++c) {
-                const WallContact& contact = wall_contacts_[b][c];
-                visit(grain_of(blocks_[b], contact), n + contact.wall, b, c, false);
-            }
     };
-    each_remembered([&](std::size_t grain, auto...) { ++book.start[grain + 1]; });
+    book.start.assign(n + 1, 0);
+    each_remembered(
+        [&](const Block&, std::size_t, std::size_t i, std::size_t j) { ++book.start[std::min(i, j) + 1]; });
     for (std::size_t g = 0; g < n; ++g) book.start[g + 1] += book.start[g];
-    book.entry.resize(book.start[n]);
+    book.partner.resize(book.start[n]);
+    book.value.resize(book.values * book.start[n]);
     std::vector<std::uint32_t> fill(book.start.begin(), book.start.end() - 1);
-    each_remembered([&](std::size_t grain, std::size_t partner, std::size_t block, std::size_t pair,
-                        bool turned) {
-        book.entry[fill[grain]++] = {static_cast<std::uint32_t>(partner), static_cast<std::uint32_t>(block),
-                                     static_cast<std::uint32_t>(pair), turned};
+    each_remembered([&](const Block& block, std::size_t pair, std::size_t i, std::size_t j) {
+        const std::size_t entry = fill[std::min(i, j)]++;
+        book.partner[entry] = static_cast<std::uint32_t>(std::max(i, j));
+        std::size_t next = book.values * entry;
+        for (const auto memory : memories)
+            if (!(block.*memory).empty())
+                book.value[next++] = (block.*memory)[pair] * (memory == &Block::moment && i > j ? -1.0 : 1.0);
     });
-    book.blocks = std::move(blocks_);
-    book.walls = std::move(wall_contacts_);
-    blocks_.clear();
-    wall_contacts_.clear();
     return book;
 }
 
@@ -133,56 +128,85 @@ void RigidDem::list_again() {
     skin_ = skin_by_motion();
     flips_ = box_.periodic ? box_.flips() : 0;
     if (box_.periodic) wrap(walls_.flipped(flips_));
-    std::vector<GrainRecord> own;
-    own.reserve(radius_.size());
-    each_grain([&](std::size_t, std::size_t r) { own.push_back(record_[r]); });
-    const ContactBook book = close_book();
-    if (listings_ % listings_between_sorts == 0) sort_in_space(own);
-    ++listings_;
+    force_ = {};
+    const bool sorts = ++listings_ % listings_between_sorts == 0;
+    std::vector<int> places;
+    if (sorts) places = places_in_space();
+    std::vector<Vec2> x;
+    std::vector<GrainMotion> motion;
+    x.reserve(radius_.size());
+    motion.reserve(radius_.size());
+    for (std::size_t s = 0; s < radius_.size(); ++s) {
+        const GrainRecord& g = record_[record_of(sorts ? static_cast<std::size_t>(places[s]) : s)];
+        x.push_back({g.x, g.y});
+        motion.push_back({g.vx, g.vy, g.spin});
+    }
+    record_ = {};
+    const ContactBook book = open_book();
+    blocks_.clear();
+    wall_contacts_.clear();
+    if (sorts) {
+        const std::vector<std::uint32_t> before = order_;
+        for (std::size_t s = 0; s < order_.size(); ++s)
+            order_[s] = before[static_cast<std::size_t>(places[s])];
+        places = {};
+    }
     travelled_ = 0.0;
     steps_listed_ = 0;
-    list_neighbors(own);
+    list_neighbors(std::move(x));
+    set_motion(motion);
     for (Block& block : blocks_) copy_memory(book, block);
     for (std::size_t b = 0; b < wall_contacts_.size(); ++b)
         for (WallContact& contact : wall_contacts_[b]) {
-            const std::size_t grain = grain_of(blocks_[b], contact);
-            if (const auto* entry = book.find(grain, radius_.size() + contact.wall))
-                contact.memory = book.walls[entry->block][entry->pair].memory;
+            const auto old = book.at_walls.find({grain_of(blocks_[b], contact), contact.wall});
+            if (old != book.at_walls.end()) contact.memory = old->second;
         }
 }
 
-void RigidDem::sort_in_space(std::vector<GrainRecord>& own) {
+/// A new spatial order, by places in the present one.
+std::vector<int> RigidDem::places_in_space() const {
     std::vector<Vec2> x;
-    x.reserve(own.size());
-    for (const GrainRecord& g : own) x.push_back({g.x, g.y});
-    const double mean_area = std::accumulate(reference_area_.begin(), reference_area_.end(), 0.0) /
-                             static_cast<double>(own.size());
-    const std::vector<int> places = space_order(x, std::sqrt(mean_area));
-    const std::vector<GrainRecord> old = own;
-    const std::vector<std::uint32_t> old_order = order_;
-    for (std::size_t s = 0; s < own.size(); ++s) {
-        own[s] = old[static_cast<std::size_t>(places[s])];
-        order_[s] = old_order[static_cast<std::size_t>(places[s])];
+    x.reserve(radius_.size());
+    each_grain([&](std::size_t, std::size_t r) { x.push_back({record_[r].x, record_[r].y}); });
+    return space_order(x, sorting_cell());
+}
+
+/// Side of a square with the mean area of a grain [m].
+double RigidDem::sorting_cell() const {
+    const double area = std::accumulate(reference_area_.begin(), reference_area_.end(), 0.0);
+    return std::sqrt(area / static_cast<double>(radius_.size()));
+}
+
+/// By grains in spatial order.
+void RigidDem::set_motion(const std::vector<GrainMotion>& motion) {
+    for (std::size_t s = 0; s < motion.size(); ++s) {
+        GrainRecord& g = record_[record_of(s)];
+        g.vx = motion[s].vx;
+        g.vy = motion[s].vy;
+        g.spin = motion[s].spin;
+        g.rim_speed = g.spin * g.radius;
     }
 }
 
-/// Blocks for grains in spatial order, without memory.
-void RigidDem::list_neighbors(const std::vector<GrainRecord>& own) {
-    std::vector<Vec2> x;
+/// Blocks for grains at rest in spatial order, without memory.
+void RigidDem::list_neighbors(std::vector<Vec2> x) {
+    record_ = {};
+    force_ = {};
     std::vector<double> reach;
-    x.reserve(own.size());
-    reach.reserve(own.size());
-    for (std::size_t s = 0; s < own.size(); ++s) {
-        x.push_back({own[s].x, own[s].y});
-        reach.push_back(reach_of(order_[s]));
-    }
-    neighbors_.build(x, reach, skin_, box_.flipped(flips_));
-    blocks_ = cut_into_blocks(neighbors_, own.size());
+    reach.reserve(x.size());
+    for (const std::uint32_t grain : order_) reach.push_back(reach_of(grain));
+    neighbors_.build(std::move(x), std::move(reach), skin_, box_.flipped(flips_));
+    blocks_ = cut_into_blocks(neighbors_, order_.size());
+    neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
     force_.assign(record_.size(), {});
     for (const Block& block : blocks_)
-        std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(block.first_grain), block.grains,
-                    record_.begin() + static_cast<std::ptrdiff_t>(block.first_record));
+        for (std::size_t g = 0; g < block.grains; ++g) {
+            const std::uint32_t grain = order_[block.first_grain + g];
+            const Vec2& at = neighbors_.built_at()[block.first_grain + g];
+            record_[block.first_record + g] = {
+                .x = at.x(), .y = at.y(), .radius = radius_[grain], .inverse_mass = 1.0 / mass_[grain]};
+        }
     for (Block& block : blocks_) prepare_pairs(block);
     wall_contacts_.resize(blocks_.size());
     for (std::size_t b = 0; b < blocks_.size() && !box_.periodic; ++b) list_walls(b);
@@ -233,21 +257,16 @@ void RigidDem::prepare_pairs(Block& block) const {
 }
 
 void RigidDem::copy_memory(const ContactBook& book, Block& block) const {
-    if (!block.has_memory()) return;
+    if (book.values == 0) return;
     each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
-        const auto* entry = book.find(std::min(i, j), std::max(i, j));
-        if (entry == nullptr) return;
-        const Block& old = book.blocks[entry->block];
-        const auto copy = [&](const std::vector<double>& from, std::vector<double>& to) {
-            if (!to.empty()) to[pair] = from[entry->pair];
-        };
-        copy(old.shear, block.shear);
-        copy(old.dashpot, block.dashpot);
-        copy(old.grip, block.grip);
-        copy(old.bond, block.bond);
-        copy(old.moment, block.moment);
-        // A rolling moment is that on the first grain.
-        if (!block.moment.empty() && entry->turned != (i > j)) block.moment[pair] *= -1.0;
+        const auto first = book.partner.begin() + book.start[std::min(i, j)],
+                   last = book.partner.begin() + book.start[std::min(i, j) + 1];
+        const auto found = std::find(first, last, std::max(i, j));
+        if (found == last) return;
+        std::size_t next = book.values * static_cast<std::size_t>(found - book.partner.begin());
+        for (const auto memory : memories)
+            if (!(block.*memory).empty())
+                (block.*memory)[pair] = book.value[next++] * (memory == &Block::moment && i > j ? -1.0 : 1.0);
     });
 }
 

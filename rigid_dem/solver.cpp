@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/space_order.hpp"
 
 namespace softgrain::rigid_dem {
 namespace {
@@ -46,21 +47,21 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     if (material_.size() > 1)
         for (std::size_t g = 0; g < n; ++g)
             grain_class_.push_back(static_cast<std::uint8_t>(packing.class_of(g)));
-    std::vector<GrainRecord> own;
     for (std::size_t g = 0; g < n; ++g) {
         const Material& material = scenario.material_of(packing.class_of(g));
         reference_area_.push_back(std::numbers::pi * radius_[g] * radius_[g]);
         mass_.push_back(material.density * reference_area_.back());
         mean_modulus_ += material.youngs_modulus / static_cast<double>(n);
-        const Vec2& x = packing.center[g];
-        own.push_back({.x = x.x(), .y = x.y(), .radius = radius_[g], .inverse_mass = 1.0 / mass_[g]});
+    }
+    std::vector<Vec2> x;
+    for (const int g : space_order(packing.center, sorting_cell())) {
+        x.push_back(packing.center[static_cast<std::size_t>(g)]);
         order_.push_back(static_cast<std::uint32_t>(g));
     }
     if (material_.size() == 1) mean_modulus_ = material_[0].youngs_modulus;
     flips_ = box_.periodic ? box_.flips() : 0;
     skin_ = skin_by_motion();
-    sort_in_space(own);
-    list_neighbors(own);
+    list_neighbors(std::move(x));
     evaluate_forces(walls_, 0.0);
     if (law_.bonds_of_start_only) law_.between_grains.sticks = 0.0;
     find_frequency();
@@ -266,13 +267,9 @@ void RigidDem::check_finite() const {
 }
 
 void RigidDem::set_velocity(std::span<const Vec2> velocity, std::span<const double> spin) {
-    each_grain([&](std::size_t grain, std::size_t r) {
-        GrainRecord& g = record_[r];
-        g.vx = velocity[grain].x();
-        g.vy = velocity[grain].y();
-        g.spin = spin[grain];
-        g.rim_speed = g.spin * g.radius;
-    });
+    std::vector<GrainMotion> motion;
+    for (const std::uint32_t g : order_) motion.push_back({velocity[g].x(), velocity[g].y(), spin[g]});
+    set_motion(motion);
     last_dt_ = 0.0;
     evaluate_forces(walls_, 0.0);
 }

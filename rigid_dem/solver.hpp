@@ -52,11 +52,14 @@ class RigidDem final : public Solver {
     // neighbours and blocks
     bool list_is_stale();
     void list_again();
-    void list_neighbors(const std::vector<GrainRecord>& own);
-    void sort_in_space(std::vector<GrainRecord>& own);
+    void list_neighbors(std::vector<Vec2> x);
+    void set_motion(const std::vector<GrainMotion>& motion);
+    std::vector<int> places_in_space() const;
+    double sorting_cell() const;
     void prepare_pairs(Block& block) const;
     void list_walls(std::size_t block);
-    ContactBook close_book();
+    ContactBook open_book() const;
+    bool forgets(const Block& block, std::size_t pair) const;
     void copy_memory(const ContactBook& book, Block& block) const;
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
@@ -93,6 +96,9 @@ class RigidDem final : public Solver {
         return record_[block.first_record + local];
     }
     double overlap(const Block& block, std::size_t pair) const;
+    std::size_t record_of(std::size_t place) const {
+        return blocks_[place / grains_per_block].first_record + place % grains_per_block;
+    }
     ContactStiffness stiffness_of(const Block& block, std::size_t pair) const;
     ContactMemory memory_of(const Block& block, std::size_t pair) const;
     ContactForce pair_force(const Block& block, std::size_t pair) const;
@@ -124,7 +130,7 @@ class RigidDem final : public Solver {
     std::vector<ForceSum> force_;
 
     // neighbour list
-    NeighborList neighbors_;
+    NeighborList neighbors_{true};
     double skin_ = 0.0;
     int listings_ = 0;
     double travelled_ = 0.0;        ///< bound on motion against the flow since the listing [m]
