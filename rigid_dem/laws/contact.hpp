@@ -12,16 +12,16 @@ namespace softgrain::rigid_dem {
 
 /// n points from i to j, s = n turned by +90 degrees.
 struct ContactInput {
-    double overlap;           ///< negative if apart [m]
-    double closing;           ///< speed of approach [m/s]
-    double slip;              ///< velocity of j's surface against i's along s [m/s]
-    double spin_difference;   ///< of i against j [1/s]
-    double k;                 ///< of the normal law
-    double shear_ratio;       ///< tangential / normal stiffness
-    double shear_compliance;  ///< 1 / tangential stiffness, if that is constant [m/N]
-    double inverse_mass;      ///< 1/m_i + 1/m_j [1/kg]
-    double rolling_radius;    ///< R_i R_j / (R_i + R_j) [m]
-    double adhesive_length;   ///< diameter of the smaller grain [m]
+    double overlap = 0.0;           ///< negative if apart [m]
+    double closing = 0.0;           ///< speed of approach [m/s]
+    double slip = 0.0;              ///< velocity of j's surface against i's along s [m/s]
+    double spin_difference = 0.0;   ///< of i against j [1/s]
+    double k = 0.0;                 ///< of the normal law
+    double shear_ratio = 0.0;       ///< tangential / normal stiffness
+    double shear_compliance = 0.0;  ///< 1 / tangential stiffness, if that is constant [m/N]
+    double inverse_mass = 1.0;      ///< 1/m_i + 1/m_j [1/kg]
+    double rolling_radius = 0.0;    ///< R_i R_j / (R_i + R_j) [m]
+    double adhesive_length = 0.0;   ///< diameter of the smaller grain [m]
 };
 
 /// What a contact remembers from the last step.
