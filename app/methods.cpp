@@ -67,9 +67,7 @@ Scenario scenario_for(const Scenario& scenario, const Method& method) {
         throw InputError(fmt::format("{}: [{}] has both strain_rate and inertial_number; keep one",
                                      scenario.source.string(), method.name));
     for (LoadingStage& stage : own.loading) {
-        if (stage.kind == LoadingKind::hold || stage.kind == LoadingKind::gradient ||
-            (!by_rate && !by_inertia))
-            continue;
+        if (!stage.has_rate() || (!by_rate && !by_inertia)) continue;
         stage.strain_rate.reset();
         stage.inertial_number.reset();
         (by_rate ? stage.strain_rate : stage.inertial_number) =
