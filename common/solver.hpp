@@ -10,6 +10,7 @@
 #include "common/checkpoint.hpp"
 #include "common/grain_view.hpp"
 #include "common/packing/packing.hpp"
+#include "common/refusals.hpp"
 #include "common/scenario.hpp"
 
 namespace softgrain {
@@ -60,6 +61,7 @@ struct Method {
     std::unique_ptr<Solver> (*make)(const Scenario&, const Packing&);
     std::string_view not_given;  ///< history columns it leaves as nan, comma separated
     std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< of a scenario table, if it looks for any
+    std::span<const Refusal> refusals = {};                      ///< what it does not have; make() refuses it
 };
 
 }  // namespace softgrain

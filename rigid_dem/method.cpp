@@ -4,6 +4,16 @@
 #include "rigid_dem/solver.hpp"
 
 namespace softgrain::rigid_dem {
+namespace {
+
+constexpr std::array refusals{
+    Refusal{Feature::ellipses, "its grains are discs"},
+    Refusal{Feature::wall_friction, "its walls are frictionless"},
+    Refusal{Feature::cohesion, "its contacts never pull"},
+    Refusal{Feature::yield_stress, "its contacts are elastic"},
+};
+
+}  // namespace
 
 const Method& method() {
     static const Method row{
@@ -11,13 +21,11 @@ const Method& method() {
         .title = "rigid discs, linear contacts with damping and Coulomb friction (Cundall and Strack 1979)",
         .keys = keys,
         .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
-            refuse(scenario, packing, "rigid_dem", Feature::ellipses, "its grains are discs");
-            refuse(scenario, packing, "rigid_dem", Feature::wall_friction, "its walls are frictionless");
-            refuse(scenario, packing, "rigid_dem", Feature::cohesion, "its contacts never pull");
-            refuse(scenario, packing, "rigid_dem", Feature::yield_stress, "its contacts are elastic");
+            refuse(scenario, packing, "rigid_dem", refusals);
             return std::make_unique<RigidDem>(scenario, packing);
         },
-        .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
+        .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments",
+        .refusals = refusals};
     return row;
 }
 

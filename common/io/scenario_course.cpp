@@ -103,8 +103,12 @@ void check_course(std::span<const CheckedTable> stages, ErrorList& errors) {
         const auto back =
             stages[k].has("stages") ? static_cast<std::size_t>(stages[k].settings.integer("stages")) : k + 1;
         if (back > k) return;
+        const auto repeated = stages.subspan(k - back, back);
+        if (std::any_of(repeated.begin(), repeated.end(),
+                        [](const CheckedTable& stage) { return stage.settings.text("kind") == "repeat"; }))
+            return;
         ErrorList again(errors);
-        for (const CheckedTable& stage : stages.subspan(k - back, back)) follow(stage, now, again);
+        for (const CheckedTable& stage : repeated) follow(stage, now, again);
         if (again.size() > errors.size())
             errors.add(
                 stages[k].place_of("stages"), stages[k].full("stages"),
