@@ -29,11 +29,11 @@ constexpr double near = 0.1;
 constexpr double fewest_steps = 40.0;
 
 /// A look at the stiffness needs a change of stress by the stiffness so far, or as it is, of these shares.
-constexpr double noticeable = 0.02, considerable = 0.05;
+constexpr double noticeable = 0.02, considerable = 0.1;
 /// Response times after which a look begins anew: by then the packing may have crept.
 constexpr double longest_look = 20.0;
-/// Change of the stiffness in one look: up at once, for safety, and down slowly.
-constexpr double most_up = 4.0, most_down = 0.5;
+/// Largest change of the stiffness in one look.
+constexpr double most_up = 2.0, most_down = 0.5;
 /// Below this share of the target a packing is not yet one, and its stiffness says nothing of what comes.
 constexpr double carries = 0.1;
 /// Stiffness / stress: a packing is not strained elastically by more than a tenth.
