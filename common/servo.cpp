@@ -25,6 +25,7 @@ constexpr double smoothing = 0.1;
 constexpr double settling = 2.0;
 constexpr double integral = 8.0;
 constexpr double near = 0.1;
+constexpr double haste_back = 3.0;
 /// Fewest time steps in tau.
 constexpr double fewest_steps = 40.0;
 
@@ -96,7 +97,9 @@ void Servo::update(ServoState& state, const Box& box, const std::array<double, 2
         if (!learns_ && state.arrived[a] > 0.0 && std::abs(state.rate[a]) < limit)
             state.offset[a] =
                 std::clamp(state.offset[a] + lacking / gain * dt / (integral * tau), -limit, limit);
-        state.rate[a] = std::clamp(lacking / gain + state.offset[a], -limit, limit);
+        // Back from beyond the target it may go faster: what another axis does must not carry it along.
+        const double most = lacking * way < 0.0 ? haste_back * limit : limit;
+        state.rate[a] = std::clamp(lacking / gain + state.offset[a], -most, most);
     }
     if (learns_) learn(state, box, dt);
 }
