@@ -19,8 +19,7 @@ const std::vector<KeySpec> keys_of_every_method{
     {"inertial_number", KeyType::number, std::monostate{}, "", "replaces the rate of every loading stage",
      positive},
     {"until_unbalanced", KeyType::number, std::monostate{}, "",
-     "replaces that of every stage which has one or goes to a stress: forces of contact dynamics tremble",
-     positive},
+     "replaces that of every stage which has one or goes to a stress", positive},
 };
 
 std::vector<KeySpec> with_common_keys(std::span<const KeySpec> own) {
@@ -72,6 +71,7 @@ Scenario scenario_for(const Scenario& scenario, const Method& method) {
     for (LoadingStage& stage : own.loading) {
         if (settings.has("until_unbalanced") && (stage.until_unbalanced || stage.seeks_stress()))
             stage.until_unbalanced = settings.number("until_unbalanced");
+        if (stage.seeks_stress() && !stage.until_unbalanced) stage.until_unbalanced = method.at_rest;
         if (!stage.has_rate() || (!by_rate && !by_inertia)) continue;
         stage.strain_rate.reset();
         stage.inertial_number.reset();

@@ -183,6 +183,9 @@ std::span<const KeySpec> keys() {
     return table;
 }
 
+/// Impulses tremble: the unbalanced force of a packing at rest is 0.3 to 0.9.
+constexpr double trembling = 1.0;
+
 constexpr std::array refusals{
     Refusal{Feature::periodic_cell, "its contact solver knows only walls"},
     Refusal{Feature::grain_classes, "its discs attract each other alike in every grain"},
@@ -244,10 +247,10 @@ BpmSettings settings_of(const Scenario& scenario) {
 
 const Method& method() {
     static const Method row{
-        "bpm",   "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
-        &keys,   &make,
-        "",      &faults_of,
-        refusals};
+        "bpm",    "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
+        &keys,    &make,
+        "",       &faults_of,
+        refusals, trembling};
     return row;
 }
 

@@ -16,8 +16,6 @@ constexpr int samples_of_a_hold = 10;
 constexpr double pressure_floor = 1e-3;
 /// Strain by which a stage may already be beyond its end: rounding of accumulated wall positions.
 constexpr double rounding = 1e-9;
-/// Unbalanced force at which a packing that has come to its stress is at rest, if the stage does not say.
-constexpr double at_rest = 0.01;
 
 /// A servo beside a driven axis may be this much faster: dilating grains need more than a constant area.
 constexpr double servo_haste = 3.0;
@@ -198,7 +196,7 @@ bool StageDriver::reached(const Answer& answer, const Box& box, const ServoState
         beyond(grains_.undeformed_area / box.area(), stage_.until_packing_fraction_undeformed))
         return true;
     if (!wants_unbalanced()) return false;
-    const bool balanced = answer.unbalanced <= stage_.until_unbalanced.value_or(at_rest);
+    const bool balanced = answer.unbalanced <= stage_.until_unbalanced.value_or(packing_at_rest);
     return stage_.seeks_stress() ? balanced && at_stress(answer, servo) : balanced;
 }
 

@@ -111,6 +111,10 @@ struct LoadingStage {
     }
 };
 
+/// Unbalanced force at which a packing that has come to its stress is at rest, if neither the stage nor the
+/// method says another.
+inline constexpr double packing_at_rest = 0.01;
+
 /// Places in `loading` of the stages in the order in which they run: every `repeat` is replaced by what it
 /// repeats.
 std::vector<std::size_t> stage_order(const std::vector<LoadingStage>& loading);

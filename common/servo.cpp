@@ -8,18 +8,16 @@ namespace {
 
 // The law, for each axis: strain rate = (set point - stress) / (K tau) + offset.
 // - A packing of stiffness K answers after T = L sqrt(rho / K), the way of a wave through it. With tau = T
-// the
-//   walls give way like dashpots of twice its acoustic impedance: they take energy out of waves, and the
-//   stress comes to its set point as exp(-t / tau). As K tau goes with sqrt(K), an error in K matters little.
+//   the walls give way like dashpots of twice its acoustic impedance: they take energy out of waves, and the
+//   stress comes to its set point as exp(-t / tau). K tau goes with sqrt(K): an error in K matters little.
 // - The stress is smoothed over tau / 10, too short to matter for the loop: real roots while K is not
 //   underrated by more than 2.5 times, damping of 0.5 at 10 times.
-// - The set point goes from where the stage begins to the target no faster than K times the largest rate, and
-//   settles within 2 tau: both axes then go a straight way, and a packing that is still loose is not run
-//   into.
-// - The offset (integral over 8 tau) cancels what another axis or a shear does. It is let in only beside
-// those,
-//   once the stress has come within a tenth of the way (or 1 %), so that it cannot carry it beyond the
-//   target.
+// - The set point goes from where the stage begins to the target no faster than K times the largest rate,
+//   and settles within 2 tau: both axes then go a straight way.
+// - Before the grains touch, K is the stress scale of the grains (at least ten times the target). The rate is
+//   then so small that a packing that jams stops the walls with a stress far below the target.
+// - The offset (integral over 8 tau) cancels what a driven axis or a shear does. It is let in only beside
+//   those, once the stress has come within a tenth of the way (or 1 %): it cannot carry it beyond the target.
 constexpr double response_times = 1.0;
 constexpr double smoothing = 0.1;
 constexpr double settling = 2.0;
@@ -97,8 +95,8 @@ void Servo::update(ServoState& state, const Box& box, const std::array<double, 2
         if (!learns_ && state.arrived[a] > 0.0 && std::abs(state.rate[a]) < limit)
             state.offset[a] =
                 std::clamp(state.offset[a] + lacking / gain * dt / (integral * tau), -limit, limit);
-        // Back from beyond the target it may go faster: what another axis does must not carry it along.
-        const double most = lacking * way < 0.0 ? haste_back * limit : limit;
+        // Back from beyond the set point it may go faster: the other axis must not carry it along.
+        const double most = learns_ && lacking * way < 0.0 ? haste_back * limit : limit;
         state.rate[a] = std::clamp(lacking / gain + state.offset[a], -most, most);
     }
     if (learns_) learn(state, box, dt);

@@ -126,7 +126,7 @@ const std::vector<KeySpec> loading_keys{
      "end at this q / p: half the difference of the principal stresses / mean stress", positive},
     {"until_unbalanced", number, Value(), "",
      "end at or below this unbalanced force (equilibrium); stress, and probe by stress, end at their target "
-     "in equilibrium: 0.01 if not given",
+     "in equilibrium: 0.01 if not given, 1 for bpm whose impulses tremble",
      positive},
     {"duration", number, Value(), "s", "longest time of the stage; must be given for a hold or gradient",
      positive},

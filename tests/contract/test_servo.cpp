@@ -18,6 +18,22 @@ class Served : public ::testing::TestWithParam<Bands> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Served, ::testing::ValuesIn(all_bands()),
                          [](const auto& instance) { return instance.param.method; });
 
+TEST(Equilibrium, IsThatOfTheMethodIfTheStageDoesNotSay) {
+    const std::string text =
+        "[[loading]]\nkind = \"stress\"\npressure = 1\nstrain_rate = 1\n[[loading]]\nuntil_strain = 0.5\n"
+        "strain_rate = 1\n[[loading]]\nkind = \"hold\"\nduration = 1\nuntil_unbalanced = 0.2\n";
+    const auto limits = [&](const char* method, const std::string& more) {
+        const Scenario all =
+            scenario_for(parse_scenario(text + more, "s.toml", {}, method_keys()), find_method(method));
+        return std::vector{all.loading[0].until_unbalanced, all.loading[1].until_unbalanced,
+                           all.loading[2].until_unbalanced};
+    };
+    using Limits = std::vector<std::optional<double>>;
+    EXPECT_EQ(limits("sdem", ""), (Limits{packing_at_rest, std::nullopt, 0.2}));
+    EXPECT_EQ(limits("bpm", ""), (Limits{1.0, std::nullopt, 0.2}));
+    EXPECT_EQ(limits("bpm", "[bpm]\nuntil_unbalanced = 0.7\n"), (Limits{0.7, std::nullopt, 0.7}));
+}
+
 /// Consolidated, sheared by an axis or the cell against a constant stress, and stopped on the way.
 TEST_P(Served, ARestartedRunHasTheSameBits) {
     const Packing packing = GetParam().cell > 0.0 ? jammed_cell(20) : jammed_box(9);
