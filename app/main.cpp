@@ -103,6 +103,14 @@ int list_command(const Arguments& a) {
     for (const Method& m : methods())
         fmt::print("  {:<10} {}{}\n", m.name, m.title,
                    m.not_given.empty() ? "" : fmt::format(" (does not give: {})", m.not_given));
+    fmt::print("\n{:<50}", "Features");
+    for (const Method& m : methods()) fmt::print(" {:>10}", m.name);
+    fmt::print("\n");
+    for (const FeatureRow& row : feature_rows()) {
+        fmt::print("  {:<48}", row.title);
+        for (const Method& m : methods()) fmt::print(" {:>10}", has_feature(m.refusals, row) ? "yes" : "-");
+        fmt::print("\n");
+    }
     fmt::print("\nHistory columns\n");
     for (const Observable& o : observables())
         fmt::print("  {:<32} {}\n", o.name, o.unit.empty() ? "-" : o.unit);

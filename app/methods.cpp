@@ -18,6 +18,8 @@ const std::vector<KeySpec> keys_of_every_method{
      positive},
     {"inertial_number", KeyType::number, std::monostate{}, "", "replaces the rate of every loading stage",
      positive},
+    {"until_unbalanced", KeyType::number, std::monostate{}, "",
+     "replaces that of every stage which has one or goes to a stress", positive},
 };
 
 std::vector<KeySpec> with_common_keys(std::span<const KeySpec> own) {
@@ -67,9 +69,10 @@ Scenario scenario_for(const Scenario& scenario, const Method& method) {
         throw InputError(fmt::format("{}: [{}] has both strain_rate and inertial_number; keep one",
                                      scenario.source.string(), method.name));
     for (LoadingStage& stage : own.loading) {
-        if (stage.kind == LoadingKind::hold || stage.kind == LoadingKind::gradient ||
-            (!by_rate && !by_inertia))
-            continue;
+        if (settings.has("until_unbalanced") && (stage.until_unbalanced || stage.seeks_stress()))
+            stage.until_unbalanced = settings.number("until_unbalanced");
+        if (stage.seeks_stress() && !stage.until_unbalanced) stage.until_unbalanced = method.at_rest;
+        if (!stage.has_rate() || (!by_rate && !by_inertia)) continue;
         stage.strain_rate.reset();
         stage.inertial_number.reset();
         (by_rate ? stage.strain_rate : stage.inertial_number) =

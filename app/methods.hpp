@@ -12,10 +12,12 @@ std::span<const Method> methods();
 /// Throws InputError with the list of names if there is no such method.
 const Method& find_method(std::string_view name);
 
-/// The scenario tables of all methods, each with the keys that every method has (its own loading rate).
+/// The scenario tables of all methods, each with the keys that every method has (its own loading rate and
+/// equilibrium).
 std::span<const MethodKeys> method_keys();
 
-/// The scenario as this method runs it: a rate in the method's table replaces the rate of every stage.
+/// The scenario as this method runs it: a rate or an equilibrium in the method's table replaces that of
+/// the stages.
 Scenario scenario_for(const Scenario& scenario, const Method& method);
 
 }  // namespace softgrain

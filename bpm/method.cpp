@@ -183,16 +183,20 @@ std::span<const KeySpec> keys() {
     return table;
 }
 
+/// Impulses tremble: the unbalanced force of a packing at rest is 0.3 to 0.9.
+constexpr double trembling = 1.0;
+
+constexpr std::array refusals{
+    Refusal{Feature::periodic_cell, "its contact solver knows only walls"},
+    Refusal{Feature::grain_classes, "its discs attract each other alike in every grain"},
+    Refusal{Feature::ellipses, "its aggregates begin as discs"},
+    Refusal{Feature::wall_friction, "its walls are frictionless"},
+    Refusal{Feature::cohesion, "its discs attract each other only within a grain"},
+    Refusal{Feature::yield_stress, "its grains yield by bpm.attraction_stress"},
+};
+
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
-    const auto not_for_aggregates = [&](Feature feature, std::string_view why) {
-        refuse(scenario, packing, "bpm", feature, why);
-    };
-    not_for_aggregates(Feature::periodic_cell, "its contact solver knows only walls");
-    not_for_aggregates(Feature::grain_classes, "its discs attract each other alike in every grain");
-    not_for_aggregates(Feature::ellipses, "its aggregates begin as discs");
-    not_for_aggregates(Feature::wall_friction, "its walls are frictionless");
-    not_for_aggregates(Feature::cohesion, "its discs attract each other only within a grain");
-    not_for_aggregates(Feature::yield_stress, "its grains yield by bpm.attraction_stress");
+    refuse(scenario, packing, "bpm", refusals);
     return std::make_unique<BpmSolver>(scenario, packing);
 }
 
@@ -243,9 +247,10 @@ BpmSettings settings_of(const Scenario& scenario) {
 
 const Method& method() {
     static const Method row{
-        "bpm", "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
-        &keys, &make,
-        "",    &faults_of};
+        "bpm",    "bonded particles: grains are aggregates of rigid discs (Nezamabadi et al. 2017)",
+        &keys,    &make,
+        "",       &faults_of,
+        refusals, trembling};
     return row;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -61,13 +62,38 @@ std::optional<Asked> asked_for(const Scenario& scenario, const Packing& packing,
     return std::nullopt;
 }
 
+constexpr std::array rows{
+    FeatureRow{"walls by displacement", std::nullopt},
+    FeatureRow{"walls by stress (servo-control)", std::nullopt},
+    FeatureRow{"periodic cell by strain or velocity gradient", Feature::periodic_cell},
+    FeatureRow{"periodic cell by stress (servo-control)", Feature::periodic_cell},
+    FeatureRow{"simple shear, at constant area or normal stress", Feature::periodic_cell},
+    FeatureRow{"stress and strain probes, cycles", std::nullopt},
+    FeatureRow{"several grain classes", Feature::grain_classes},
+    FeatureRow{"ellipses", Feature::ellipses},
+    FeatureRow{"friction between grains", Feature::friction},
+    FeatureRow{"friction at walls", Feature::wall_friction},
+    FeatureRow{"cohesion", Feature::cohesion},
+    FeatureRow{"yield stress of the material", Feature::yield_stress},
+};
+
 }  // namespace
 
-void refuse(const Scenario& scenario, const Packing& packing, std::string_view method, Feature feature,
-            std::string_view why) {
-    if (const auto asked = asked_for(scenario, packing, feature))
-        throw InputError(fmt::format("{} is not for {}: {}; {} or run another method", asked->what, method,
-                                     why, asked->cure));
+void refuse(const Scenario& scenario, const Packing& packing, std::string_view method,
+            std::span<const Refusal> refusals) {
+    for (const auto& [feature, why] : refusals)
+        if (const auto asked = asked_for(scenario, packing, feature))
+            throw InputError(fmt::format("{} is not for {}: {}; {} or run another method", asked->what,
+                                         method, why, asked->cure));
+}
+
+std::span<const FeatureRow> feature_rows() {
+    return rows;
+}
+
+bool has_feature(std::span<const Refusal> refusals, const FeatureRow& row) {
+    return std::none_of(refusals.begin(), refusals.end(),
+                        [&](const Refusal& refusal) { return row.needs == refusal.feature; });
 }
 
 }  // namespace softgrain

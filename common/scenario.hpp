@@ -54,27 +54,70 @@ struct BoxSpec {
     bool periodic = false;                ///< a periodic cell instead of walls
 };
 
-/// shear and gradient are for a periodic cell only.
-enum class LoadingKind { isotropic, oedometric, hold, shear, gradient };
+/// What moves (common/stage_plan.hpp). shear and gradient are for a periodic cell only.
+enum class LoadingKind {
+    isotropic,   ///< both axes by rate
+    oedometric,  ///< one wall by rate
+    hold,        ///< nothing moves
+    shear,       ///< the tilt by rate; the height stands, or follows normal_stress
+    gradient,    ///< any velocity gradient
+    uniaxial,    ///< one axis by rate, the other stands
+    biaxial,     ///< one axis by rate, the other follows lateral_stress
+    stress,      ///< both axes, or one, to a stress
+    probe,       ///< a small step of stress or strain in one direction of the (xx, yy) plane
+    repeat,      ///< stages before it once more
+};
 
-/// One loading stage. The first of its `until_...` that is reached ends it.
+/// One loading stage. The first of its ends that is reached ends it: any `until_...`, the duration, and of
+/// `stress` and `probe` what they go to. Stress is compression positive.
 struct LoadingStage {
     LoadingKind kind = LoadingKind::isotropic;
-    Wall wall = Wall::right;  ///< the moving wall of an oedometric stage
+    Wall wall = Wall::right;               ///< the moving wall of an oedometric stage
+    int axis = 1;                          ///< that a uniaxial or biaxial stage loads: 0 x, 1 y
+    std::optional<double> lateral_stress;  ///< of the other axis of a biaxial stage [N/m]
+    std::optional<double> normal_stress;   ///< yy of a shear whose height is free [N/m]
+    std::optional<double> stress_xx,
+        stress_yy;            ///< that a `stress` stage goes to; none: the axis stands [N/m]
+    double tolerance = 0.01;  ///< of `stress` and `probe`, relative: the stress that counts as reached
+    double direction = 0.0;   ///< of a probe: 0 is +xx, 90 is +yy [degrees]
+    std::optional<double> stress_amplitude;  ///< of a probe [N/m]
+    std::optional<double> strain_amplitude;  ///< of a probe
+    int stages = 1, times = 1;               ///< of `repeat`: how many stages before it, how often again
+
     std::optional<double>
         until_strain;  ///< engineering strain 1 - L/L0 along the loading axis, L0 of the run's start
     std::optional<double> until_packing_fraction;
     std::optional<double> until_packing_fraction_undeformed;
     std::optional<double> until_shear;   ///< tilt / height of the cell, for `shear`
     std::optional<double> until_stress;  ///< mean stress of the walls, or of the cell [N/m]
-    std::optional<double> duration;      ///< [s], for `hold` and `gradient`
-    std::optional<double> strain_rate;   ///< d(1 - L/L0)/dt, or d(tilt / height)/dt of a shear [1/s]
+    std::optional<double> until_stress_xx, until_stress_yy;  ///< [N/m]
     std::optional<double>
-        inertial_number;   ///< rate = I / (d sqrt(rho / p)), p = max(mean stress, 1e-3 stress scale)
-    bool reverse = false;  ///< the other way (unloading): every end is then reached from above
+        until_stress_ratio;                  ///< q / p: half the difference of the principal stresses / mean
+    std::optional<double> until_unbalanced;  ///< at or below; with `stress` and `probe` beside their target
+    std::optional<double> duration;          ///< [s]
+    std::optional<double> strain_rate;       ///< d(1 - L/L0)/dt, or d(tilt / height)/dt of a shear [1/s]
+    std::optional<double> inertial_number;   ///< rate = I / (d sqrt(rho / p)), see StageDriver::rate
+    bool reverse = false;                    ///< the other way (unloading): ends are then reached from above
     double gradient_xx = 0.0, gradient_xy = 0.0,
            gradient_yy = 0.0;  ///< of `gradient`: velocity d/dx, d/dy [1/s]
+
+    /// Goes to a stress by servo-control: `stress`, and `probe` by stress.
+    bool seeks_stress() const {
+        return kind == LoadingKind::stress || (kind == LoadingKind::probe && stress_amplitude);
+    }
+    /// Has a strain_rate or inertial_number.
+    bool has_rate() const {
+        return kind != LoadingKind::hold && kind != LoadingKind::gradient && kind != LoadingKind::repeat;
+    }
 };
+
+/// Unbalanced force at which a packing that has come to its stress is at rest, if neither the stage nor the
+/// method says another.
+inline constexpr double packing_at_rest = 0.01;
+
+/// Places in `loading` of the stages in the order in which they run: every `repeat` is replaced by what it
+/// repeats.
+std::vector<std::size_t> stage_order(const std::vector<LoadingStage>& loading);
 
 struct Sampling {
     double strain_interval = 0.002;  ///< between two rows of the history

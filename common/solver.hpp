@@ -10,6 +10,7 @@
 #include "common/checkpoint.hpp"
 #include "common/grain_view.hpp"
 #include "common/packing/packing.hpp"
+#include "common/refusals.hpp"
 #include "common/scenario.hpp"
 
 namespace softgrain {
@@ -19,7 +20,6 @@ class Solver {
   public:
     virtual ~Solver() = default;
 
-    /// Largest time step to use from the current state [s], safety factor included.
     virtual double stable_time_step() const = 0;
 
     /// One step of `dt` while the walls move as told. Throws DivergedError.
@@ -60,6 +60,8 @@ struct Method {
     std::unique_ptr<Solver> (*make)(const Scenario&, const Packing&);
     std::string_view not_given;  ///< history columns it leaves as nan, comma separated
     std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< of a scenario table, if it looks for any
+    std::span<const Refusal> refusals = {};                      ///< what it does not have; make() refuses it
+    double at_rest = packing_at_rest;  ///< unbalanced force that counts as rest after a change of stress
 };
 
 }  // namespace softgrain

@@ -15,6 +15,7 @@ namespace {
 constexpr int checks_per_sample = 8;
 /// A method that has left its validity may diverge a few steps later: it must be noticed before.
 constexpr int steps_between_validity_checks = 8;
+constexpr double rounding_of_time = 1e-12;  // relative, of a sum of steps
 
 double mean_density(const Scenario& scenario, const Packing& packing) {
     if (scenario.classes.empty()) return scenario.material.density;
@@ -27,6 +28,12 @@ double mean_density(const Scenario& scenario, const Packing& packing) {
     return mass / area;
 }
 
+Grains grains_of(const Scenario& scenario, const Packing& packing, const Solver& solver) {
+    const double area = packing.packing_fraction_undeformed() * packing.box.area();
+    return {area, 2.0 * std::sqrt(area / static_cast<double>(packing.size()) / std::numbers::pi),
+            mean_density(scenario, packing), solver.stress_scale()};
+}
+
 }  // namespace
 
 TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
@@ -34,10 +41,8 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
     : scenario_(scenario),
       solver_(solver),
       observers_(std::move(observers)),
-      undeformed_area_(packing.packing_fraction_undeformed() * packing.box.area()),
-      mean_diameter_(2.0 *
-                     std::sqrt(undeformed_area_ / static_cast<double>(packing.size()) / std::numbers::pi)),
-      density_(mean_density(scenario, packing)),
+      order_(stage_order(scenario.loading)),
+      grains_(grains_of(scenario, packing, solver)),
       checks_before_window_(static_cast<int>(std::lround(
           checks_per_sample * (1.0 - std::max(scenario.sampling.average_window, 1.0 / checks_per_sample))))) {
     state_.box = state_.initial_box = packing.box;
@@ -62,16 +67,23 @@ void TimeLoop::start() {
 void TimeLoop::begin_stage(int stage) {
     state_.stage = stage;
     state_.stage_box = state_.box;
-    state_.stage_time = 0.0;
+    const Mat2 stress = mean_boundary_stress();
+    state_.stage_stress = {stress(0, 0), stress(1, 1)};
+    state_.stage_time = state_.most_strain = 0.0;
     state_.checks = 0;
     state_.stage_packing_fraction = state_.packing_fraction;
     make_driver();
+    if (const auto& servo = driver_.front().servo())
+        state_.servo = servo->begin(state_.servo, state_.box, state_.stage_stress, grains_.stress_scale);
 }
 
 void TimeLoop::make_driver() {
-    driver_.assign(1,
-                   StageDriver(scenario_.loading[static_cast<std::size_t>(state_.stage)], state_.stage,
-                               scenario_.sampling, state_.initial_box, state_.stage_box, undeformed_area_));
+    driver_.assign(1, StageDriver(stage(), order_[static_cast<std::size_t>(state_.stage)], scenario_.sampling,
+                                  state_.initial_box, {state_.stage_box, state_.stage_stress}, grains_));
+}
+
+const LoadingStage& TimeLoop::stage() const {
+    return scenario_.loading[order_[static_cast<std::size_t>(state_.stage)]];
 }
 
 void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& after_step) {
@@ -85,30 +97,36 @@ void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& aft
 void TimeLoop::step(const StageDriver& driver) {
     const double interval = driver.sample_interval();
     const double check_interval = interval / checks_per_sample;
-    const double progress = driver.progress(state_.box, state_.stage_time);
+    const double progress = driver.progress(state_.box, state_.stage_time, state_.most_strain);
     const double tiny = 1e-9 * interval;  // rounding of accumulated wall positions
     const auto reached = [&](double target) { return progress >= target - tiny; };
 
-    const bool at_end = driver.end() && reached(*driver.end());
+    const auto end_time = driver.end_time();
+    const bool at_end = (driver.end() && reached(*driver.end())) ||
+                        (end_time && state_.stage_time >= *end_time * (1.0 - rounding_of_time));
     if (at_end || reached(check_interval * static_cast<double>(state_.checks + 1))) {
         check(driver, at_end);
         return;
     }
 
     // Steps of equal length that land on the next sample, or on the end of the stage.
-    state_.rate = driver.rate(mean_stress(), solver_.stress_scale(), mean_diameter_, density_);
+    state_.rate = driver.rate(mean_stress());
     const long long samples_done = state_.checks / checks_per_sample;
     double target = interval * static_cast<double>(samples_done + 1);
     if (driver.end()) target = std::min(target, *driver.end());
-    const double remaining = (target - progress) / state_.rate;
+    double remaining = (target - progress) / state_.rate;
+    if (end_time) remaining = std::min(remaining, *end_time - state_.stage_time);
     const double dt = remaining / std::max(1.0, std::ceil(remaining / solver_.stable_time_step()));
 
-    const WallMotion motion = driver.motion(state_.box, state_.rate, dt);
+    const WallMotion motion = driver.motion(state_.box, state_.rate, state_.servo, dt);
     solver_.advance(motion, dt);
     state_.box = motion.after(dt);
     state_.time += dt;
     state_.stage_time += dt;
+    state_.most_strain += state_.rate * dt;
     ++state_.step;
+    if (const auto& servo = driver.servo())
+        servo->update(state_.servo, state_.box, present_stress(), driver.servo_limit(state_.rate), dt);
     for (std::size_t w = 0; w < 4; ++w) state_.impulse[w] += solver_.wall_force()[w] * dt;
     if (state_.box.periodic) state_.stress_impulse += solver_.cell_stress() * dt;
     state_.impulse_time += dt;
@@ -127,12 +145,14 @@ void TimeLoop::check(const StageDriver& driver, bool at_end) {
         state_.stress_impulse.setZero();
         state_.impulse_time = 0.0;
     }
-    const GrainView view = solver_.view(Need::area);
+    const GrainView view = solver_.view(driver.wants_unbalanced() ? Need::area | Need::contacts : Need::area);
     state_.packing_fraction = view.covered_area / view.box.area();
+    const Answer answer{state_.packing_fraction, mean_boundary_stress(),
+                        driver.wants_unbalanced() ? unbalanced_force(view) : 0.0};
 
     std::string invalid = solver_.outside_validity().value_or("");
-    const bool over = at_end || driver.reached(state_.packing_fraction, mean_stress());
-    const bool last_stage = state_.stage + 1 == static_cast<int>(scenario_.loading.size());
+    const bool over = at_end || driver.reached(answer, state_.box, state_.servo);
+    const bool last_stage = state_.stage + 1 == static_cast<int>(order_.size());
     if (!invalid.empty()) {
         state_.ended = "left its range of validity: " + invalid;
     } else if (over && last_stage) {
@@ -160,8 +180,8 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
     const Frame frame{view,
                       state_.initial_box,
                       driver.axial_strain(state_.box),
-                      driver.strain_rate(state_.rate),
-                      density_,
+                      driver.strain_rate(state_.rate, state_.servo),
+                      grains_.density,
                       state_.initial_energy,
                       state_.mean_force,
                       state_.mean_cell_stress,
@@ -174,94 +194,34 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
     for (Observer* observer : observers_) observer->observe(view, sample);
 }
 
-double TimeLoop::mean_stress() const {
-    return 0.5 * boundary_stress(state_.mean_force, state_.mean_cell_stress, state_.box).trace();
+Mat2 TimeLoop::mean_boundary_stress() const {
+    return boundary_stress(state_.mean_force, state_.mean_cell_stress, state_.box);
+}
+
+std::array<double, 2> TimeLoop::present_stress() const {
+    const Mat2 stress = boundary_stress(
+        solver_.wall_force(), state_.box.periodic ? solver_.cell_stress() : Mat2::Zero(), state_.box);
+    return {stress(0, 0), stress(1, 1)};
 }
 
 double TimeLoop::loading_done() const {
     if (finished()) return 1.0;
-    const auto stages = static_cast<double>(scenario_.loading.size());
-    const LoadingStage& stage = scenario_.loading[static_cast<std::size_t>(state_.stage)];
+    const auto stages = static_cast<double>(order_.size());
+    const LoadingStage& stage = this->stage();
     double part = 0.0;
     const auto at_least = [&](double done, double whole) {
         if (whole != 0.0) part = std::max(part, std::clamp(done / whole, 0.0, 1.0));
     };
     const StageDriver& driver = driver_.front();
-    if (driver.end()) at_least(driver.progress(state_.box, state_.stage_time), *driver.end());
+    if (driver.end())
+        at_least(driver.progress(state_.box, state_.stage_time, state_.most_strain), *driver.end());
+    if (const auto time = driver.end_time()) at_least(state_.stage_time, *time);
+    if (stage.seeks_stress()) at_least(state_.servo.way, 1.0);
     if (stage.until_packing_fraction)
         at_least(state_.packing_fraction - state_.stage_packing_fraction,
                  *stage.until_packing_fraction - state_.stage_packing_fraction);
     if (stage.until_stress && !stage.reverse) at_least(mean_stress(), *stage.until_stress);
     return (state_.stage + part) / stages;
-}
-
-void RunState::save(Checkpoint& to) const {
-    to.put("counters", std::vector<std::int64_t>{step, stage, checks});
-    to.put("scalars", std::vector<double>{time, initial_energy, stage_time, stage_packing_fraction,
-                                          packing_fraction, impulse_time, rate});
-    to.put("box", std::span<const double>(box.position));
-    to.put("initial_box", std::span<const double>(initial_box.position));
-    to.put("stage_box", std::span<const double>(stage_box.position));
-    to.put("impulse", std::span<const Vec2>(impulse));
-    to.put("mean_force", std::span<const Vec2>(mean_force));
-    to.put("tilt", std::vector<double>{box.tilt, initial_box.tilt, stage_box.tilt});
-    to.put("periodic", std::vector<int>{box.periodic ? 1 : 0});
-    to.put("cell_stress", std::vector<Mat2>{stress_impulse, mean_cell_stress});
-    to.put("frame_times", frame_times);
-    std::vector<double> flat;
-    for (const auto& row : history) flat.insert(flat.end(), row.begin(), row.end());
-    to.put("history", flat);
-    to.put("ended", std::vector<int>(ended.begin(), ended.end()));
-}
-
-void RunState::load(const Checkpoint& from) {
-    std::vector<std::int64_t> counters;
-    from.get("counters", counters);
-    step = counters.at(0);
-    stage = static_cast<int>(counters.at(1));
-    checks = counters.at(2);
-    std::vector<double> values;
-    from.get("scalars", values);
-    time = values.at(0);
-    initial_energy = values.at(1);
-    stage_time = values.at(2);
-    stage_packing_fraction = values.at(3);
-    packing_fraction = values.at(4);
-    impulse_time = values.at(5);
-    rate = values.at(6);
-    const auto read_box = [&](std::string_view name, Box& into) {
-        from.get(name, values);
-        for (std::size_t w = 0; w < 4; ++w) into.position[w] = values.at(w);
-    };
-    read_box("box", box);
-    read_box("initial_box", initial_box);
-    read_box("stage_box", stage_box);
-    std::vector<Vec2> vectors;
-    from.get("impulse", vectors);
-    for (std::size_t w = 0; w < 4; ++w) impulse[w] = vectors.at(w);
-    from.get("mean_force", vectors);
-    for (std::size_t w = 0; w < 4; ++w) mean_force[w] = vectors.at(w);
-    from.get("tilt", values);
-    box.tilt = values.at(0);
-    initial_box.tilt = values.at(1);
-    stage_box.tilt = values.at(2);
-    std::vector<int> flags;
-    from.get("periodic", flags);
-    box.periodic = initial_box.periodic = stage_box.periodic = flags.at(0) != 0;
-    std::vector<Mat2> stresses;
-    from.get("cell_stress", stresses);
-    stress_impulse = stresses.at(0);
-    mean_cell_stress = stresses.at(1);
-    from.get("frame_times", frame_times);
-    from.get("history", values);
-    const std::size_t columns = observables().size();
-    history.clear();
-    for (std::size_t k = 0; k + columns <= values.size(); k += columns)
-        history.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(k),
-                             values.begin() + static_cast<std::ptrdiff_t>(k + columns));
-    std::vector<int> letters;
-    from.get("ended", letters);
-    ended.assign(letters.begin(), letters.end());
 }
 
 }  // namespace softgrain

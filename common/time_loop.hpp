@@ -2,43 +2,15 @@
 // The one time loop: moves the walls or the cell, asks the solver to advance, samples at equal strain.
 #include <atomic>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "common/loading.hpp"
 #include "common/observer.hpp"
+#include "common/run_state.hpp"
 #include "common/scenario.hpp"
 #include "common/solver.hpp"
 
 namespace softgrain {
-
-/// Everything of the loop that a restart needs. Complete with the solver's own state.
-struct RunState {
-    long long step = 0;
-    double time = 0.0;  ///< [s]
-    Box box, initial_box;
-    double initial_energy = 0.0;  ///< [J]
-    int stage = 0;
-    Box stage_box;            ///< at the start of the stage
-    double stage_time = 0.0;  ///< since the start of the stage [s]
-    double stage_packing_fraction = 0.0;
-    long long checks = 0;           ///< done in this stage
-    double packing_fraction = 0.0;  ///< at the last check
-    std::array<Vec2, 4> impulse{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
-                                Vec2::Zero()};  ///< since the mean began [N s]
-    Mat2 stress_impulse = Mat2::Zero();         ///< of a periodic cell, since the mean began [N s / m]
-    double impulse_time = 0.0;                  ///< [s]
-    std::array<Vec2, 4> mean_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
-                                   Vec2::Zero()};  ///< up to the last check [N]
-    Mat2 mean_cell_stress = Mat2::Zero();          ///< the same, of a periodic cell [N/m]
-    double rate = 0.0;                             ///< d(progress)/dt of the last step [1/s]
-    std::vector<std::vector<double>> history;      ///< a row per sample, columns as the table of observables
-    std::vector<double> frame_times;               ///< [s]
-    std::string ended;                             ///< why the run is over; empty while it is not
-
-    void save(Checkpoint& to) const;
-    void load(const Checkpoint& from);
-};
 
 class TimeLoop {
   public:
@@ -67,14 +39,17 @@ class TimeLoop {
     void step(const StageDriver& driver);
     void check(const StageDriver& driver, bool at_end);
     void sample(const StageDriver& driver, bool last);
-    double mean_stress() const;
+    const LoadingStage& stage() const;
+    Mat2 mean_boundary_stress() const;
+    double mean_stress() const { return 0.5 * mean_boundary_stress().trace(); }
+    /// Of the last step, by axis.
+    std::array<double, 2> present_stress() const;
 
     const Scenario& scenario_;
     Solver& solver_;
     std::vector<Observer*> observers_;
-    double undeformed_area_ = 0.0;
-    double mean_diameter_ = 0.0;
-    double density_ = 0.0;
+    std::vector<std::size_t> order_;  ///< of the stages, repeats written out
+    Grains grains_;
     int checks_before_window_ = 0;  ///< of a sample interval; the mean of the stresses is over the rest
     RunState state_;
     std::vector<StageDriver> driver_;  ///< the present stage's, one or none

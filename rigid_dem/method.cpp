@@ -4,6 +4,14 @@
 #include "rigid_dem/solver.hpp"
 
 namespace softgrain::rigid_dem {
+namespace {
+
+constexpr std::array refusals{
+    Refusal{Feature::ellipses, "its grains are discs"},
+    Refusal{Feature::yield_stress, "its contacts are elastic"},
+};
+
+}  // namespace
 
 const Method& method() {
     static const Method row{
@@ -13,12 +21,12 @@ const Method& method() {
             "Strack 1979)",
         .keys = keys,
         .make = [](const Scenario& scenario, const Packing& packing) -> std::unique_ptr<Solver> {
-            refuse(scenario, packing, "rigid_dem", Feature::ellipses, "its grains are discs");
-            refuse(scenario, packing, "rigid_dem", Feature::yield_stress, "its contacts are elastic");
+            refuse(scenario, packing, "rigid_dem", refusals);
             return std::make_unique<RigidDem>(scenario, packing);
         },
         .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments",
-        .faults = faults};
+        .faults = faults,
+        .refusals = refusals};
     return row;
 }
 

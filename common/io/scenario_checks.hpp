@@ -11,8 +11,9 @@ namespace softgrain::scenario_io {
 /// `folder` is the one that a relative packing.path starts from.
 void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
                    ErrorList& errors);
-/// `box` tells whether there are walls or a periodic cell.
-void check_stage(const CheckedTable& stage, const CheckedTable& box, ErrorList& errors);
+/// One of the stages; `box` tells whether there are walls or a periodic cell.
+void check_stage(std::span<const CheckedTable> stages, std::size_t number, const CheckedTable& box,
+                 ErrorList& errors);
 /// Each until_strain and until_shear lies ahead of where its stage begins, as far as that is known.
 void check_course(std::span<const CheckedTable> stages, ErrorList& errors);
 

@@ -21,6 +21,8 @@ class ErrorList {
     /// `subject` is the full key ("material.density"), `text` what is wrong with it.
     void add(const Place& place, std::string_view subject, std::string_view text);
 
+    std::size_t size() const { return entries_.size(); }
+
     /// Throws InputError with one line for each error: the file's first, by position, then the options'.
     void throw_if_any() const;
 

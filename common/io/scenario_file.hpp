@@ -19,9 +19,10 @@ struct MethodKeys {
 
 /// Reads and checks a scenario. `overrides` are KEY=VALUE ("material.poisson_ratio=0.45",
 /// "loading.0.until_strain=0.2"), applied before the checks; the value is TOML, a bare word is text. An
-/// override of how a stage ends or how fast it goes takes the place of what the file says about that, and
-/// `packing.path` the place of the file's generator. A relative packing.path is looked up from the scenario's
-/// folder, from an override from the current one. Throws InputError: one line for each error.
+/// override of how a stage ends, how fast it goes or to which pressure takes the place of what the file says
+/// about that, and `packing.path` the place of the file's generator. A relative packing.path is looked up
+/// from the scenario's folder, from an override from the current one. Throws InputError: one line for each
+/// error.
 Scenario read_scenario(const std::filesystem::path& path, std::span<const std::string> overrides,
                        std::span<const MethodKeys> methods);
 

@@ -50,11 +50,18 @@ bool is_rate(std::string_view key) {
     return key == "strain_rate" || key == "inertial_number";
 }
 
+/// The target of a stress stage.
+bool is_target(std::string_view key) {
+    return key == "pressure" || key == "stress_xx" || key == "stress_yy";
+}
+
 /// True if an option for `key` of `table` takes the place of `other`.
 bool replaces(std::string_view table, std::string_view key, std::string_view other) {
     if (key == other) return false;
     if (table == "loading")
-        return (key.starts_with("until_") && other.starts_with("until_")) || (is_rate(key) && is_rate(other));
+        return (key.starts_with("until_") && other.starts_with("until_")) ||
+               (is_rate(key) && is_rate(other)) ||
+               (is_target(key) && is_target(other) && (key == "pressure" || other == "pressure"));
     return table == "packing" && key == "path";
 }
 

@@ -11,6 +11,7 @@
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_overrides.hpp"
 #include "common/io/scenario_schema.hpp"
+#include "common/io/scenario_stages.hpp"
 #include "common/io/scenario_table.hpp"
 
 namespace softgrain {
@@ -20,15 +21,6 @@ using namespace scenario_io;
 
 constexpr std::size_t most_classes = 255;  // a grain's class is kept in a byte
 constexpr std::size_t most_stages = 10000;
-
-template <class Names>
-int position_in(const Names& names, std::string_view word) {
-    return static_cast<int>(std::find(names.begin(), names.end(), word) - names.begin());
-}
-
-std::optional<double> optional_number(const Settings& settings, std::string_view key) {
-    return settings.has(key) ? std::optional(settings.number(key)) : std::nullopt;
-}
 
 Material material_of(const Settings& s) {
     return {s.number("youngs_modulus"),
@@ -63,25 +55,6 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
     packing.fractal_dimension = s.number("fractal_dimension");
     packing.packing_fraction = optional_number(s, "packing_fraction");
     return packing;
-}
-
-LoadingStage stage_of(const Settings& s) {
-    LoadingStage stage;
-    stage.kind = static_cast<LoadingKind>(position_in(loading_kind_names, s.text("kind")));
-    if (s.has("wall")) stage.wall = static_cast<Wall>(position_in(wall_names, s.text("wall")));
-    stage.until_strain = optional_number(s, "until_strain");
-    stage.until_packing_fraction = optional_number(s, "until_packing_fraction");
-    stage.until_packing_fraction_undeformed = optional_number(s, "until_packing_fraction_undeformed");
-    stage.until_shear = optional_number(s, "until_shear");
-    stage.until_stress = optional_number(s, "until_stress");
-    stage.duration = optional_number(s, "duration");
-    stage.strain_rate = optional_number(s, "strain_rate");
-    stage.inertial_number = optional_number(s, "inertial_number");
-    stage.reverse = s.boolean("reverse");
-    stage.gradient_xx = optional_number(s, "gradient_xx").value_or(0.0);
-    stage.gradient_xy = optional_number(s, "gradient_xy").value_or(0.0);
-    stage.gradient_yy = optional_number(s, "gradient_yy").value_or(0.0);
-    return stage;
 }
 
 Sampling sampling_of(const Settings& s) {
@@ -193,7 +166,7 @@ class Reader {
         const std::vector<CheckedTable> tables = repeated("loading", most_stages);
         std::vector<LoadingStage> all;
         for (std::size_t k = 0; k < tables.size(); ++k) {
-            if (node->children[k].kind == Node::Kind::table) check_stage(tables[k], box, errors_);
+            if (node->children[k].kind == Node::Kind::table) check_stage(tables, k, box, errors_);
             all.push_back(stage_of(tables[k].settings));
         }
         check_course(tables, errors_);

@@ -84,10 +84,34 @@ const std::vector<KeySpec> box_keys{
 
 const std::vector<KeySpec> loading_keys{
     {"kind", text, Value(std::string(loading_kind_names[0])), "",
-     "all walls (isotropic), one wall (oedometric) or none (hold); of a periodic cell also shear at constant "
-     "area, or any velocity gradient",
+     "by rate: all walls (isotropic), one wall (oedometric), both walls of an axis (uniaxial), the same with "
+     "the other axis at constant stress (biaxial); nothing moves (hold); to a stress (stress, probe); what "
+     "came before once more (repeat); of a periodic cell also simple shear or any velocity gradient",
      any_number, words(loading_kind_names)},
     {"wall", text, Value(), "", "moving wall or face, oedometric only", any_number, words(wall_names)},
+    {"axis", text, Value(), "", "that a uniaxial or biaxial stage loads; y if not given", any_number,
+     words(axis_names)},
+    {"lateral_stress", number, Value(), "N/m", "kept on the other axis of a biaxial stage by servo-control",
+     positive},
+    {"normal_stress", number, Value(), "N/m",
+     "kept on yy during a shear by servo-control of the height; without it the area is constant", positive},
+    {"pressure", number, Value(), "N/m", "that a stress stage goes to: stress_xx and stress_yy in one",
+     positive},
+    {"stress_xx", number, Value(), "N/m", "that a stress stage goes to; the axis stands if not given",
+     positive},
+    {"stress_yy", number, Value(), "N/m", "that a stress stage goes to; the axis stands if not given",
+     positive},
+    {"tolerance", number, Value(), "",
+     "stress that counts as reached, share of it (stress) or of the amplitude (probe); 0.01 if not given",
+     Range{0.0, 1.0, true, true}},
+    {"direction", number, Value(), "degrees", "of a probe in the plane of xx and yy: 0 is +xx, 90 is +yy",
+     Range{-360.0, 360.0}},
+    {"stress_amplitude", number, Value(), "N/m", "of a probe from the stress at which it begins", positive},
+    {"strain_amplitude", number, Value(), "", "of a probe from the strain at which it begins",
+     Range{0.0, 1.0, true, true}},
+    {"stages", integer, Value(), "", "of a repeat: how many stages before it to run once more",
+     Range{1.0, 1e4}},
+    {"times", integer, Value(), "", "of a repeat: how often; once if not given", Range{1.0, 1e4}},
     {"until_strain", number, Value(), "", "end at this 1 - L/L0, L0 of the run's start",
      Range{-1.0, 1.0, false, true}},
     {"until_packing_fraction", number, Value(), "", "end at this covered area / box area", fraction},
@@ -96,9 +120,21 @@ const std::vector<KeySpec> loading_keys{
     {"until_shear", number, Value(), "", "end at this tilt / height of the periodic cell, shear only",
      Range{-100.0, 100.0}},
     {"until_stress", number, Value(), "N/m", "end at this mean stress of the walls or the cell", positive},
-    {"duration", number, Value(), "s", "length of a hold or gradient", positive},
-    {"strain_rate", number, Value(), "1/s", "d(1 - L/L0)/dt, or d(tilt / height)/dt of a shear", positive},
-    {"inertial_number", number, Value(), "", "I = strain rate * d sqrt(rho / p), instead of strain_rate",
+    {"until_stress_xx", number, Value(), "N/m", "end at this stress_xx", positive},
+    {"until_stress_yy", number, Value(), "N/m", "end at this stress_yy", positive},
+    {"until_stress_ratio", number, Value(), "",
+     "end at this q / p: half the difference of the principal stresses / mean stress", positive},
+    {"until_unbalanced", number, Value(), "",
+     "end at or below this unbalanced force (equilibrium); stress, and probe by stress, end at their target "
+     "in equilibrium: 0.01 if not given, 1 for bpm whose impulses tremble",
+     positive},
+    {"duration", number, Value(), "s", "longest time of the stage; must be given for a hold or gradient",
+     positive},
+    {"strain_rate", number, Value(), "1/s",
+     "d(1 - L/L0)/dt, d(tilt / height)/dt of a shear; the largest of stress and probe by stress", positive},
+    {"inertial_number", number, Value(), "",
+     "I = strain rate * d sqrt(rho / p), instead of strain_rate; p is the mean stress, at least 1e-3 of the "
+     "grains' stress scale, or the stress that servo-control keeps",
      positive},
     {"reverse", boolean, Value(false), "",
      "move the other way (unload); every end is then reached from above"},
@@ -108,7 +144,8 @@ const std::vector<KeySpec> loading_keys{
 };
 
 const std::vector<KeySpec> sampling_keys{
-    {"strain_interval", number, Sampling{}.strain_interval, "", "strain between two rows of the history",
+    {"strain_interval", number, Sampling{}.strain_interval, "",
+     "strain between two rows of the history; where a stage goes to a stress, largest strain rate times time",
      Range{0.0, 1.0, true, false}},
     {"average_window", number, Sampling{}.average_window, "",
      "share of the interval before a sample over which stresses are averaged", Range{0.0, 1.0}},
@@ -129,7 +166,8 @@ const std::array<TableSpec, 8> tables{{
      class_keys, true},
     {"packing", "The initial grains: a file (path) or a generator (all other keys).", packing_keys},
     {"box", "The container.", box_keys},
-    {"loading", "A stage of the loading; the first `until_...` that is reached ends it.", loading_keys, true},
+    {"loading", "A stage of the loading; the first `until_...` that is reached ends it, or its duration.",
+     loading_keys, true},
     {"sampling", "What is written, and how often.", sampling_keys},
 }};
 

@@ -11,8 +11,11 @@ namespace softgrain::scenario_io {
 
 inline constexpr std::array<std::string_view, 4> size_law_names{"gaussian", "fractal", "uniform_volume",
                                                                 "single"};
-inline constexpr std::array<std::string_view, 5> loading_kind_names{"isotropic", "oedometric", "hold",
-                                                                    "shear", "gradient"};
+/// In the order of LoadingKind.
+inline constexpr std::array<std::string_view, 10> loading_kind_names{
+    "isotropic", "oedometric", "hold",   "shear", "gradient",
+    "uniaxial",  "biaxial",    "stress", "probe", "repeat"};
+inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 
 struct TableSpec {
     std::string_view name;  ///< "" for the keys before the first table

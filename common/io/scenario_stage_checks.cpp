@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -6,162 +7,192 @@
 
 #include "common/io/scenario_checks.hpp"
 #include "common/io/scenario_schema.hpp"
+#include "common/io/scenario_stages.hpp"
 
 namespace softgrain::scenario_io {
 namespace {
 
-constexpr std::array<std::string_view, 3> gradient_keys{"gradient_xx", "gradient_xy", "gradient_yy"};
+using Kinds = unsigned;  // a bit for each LoadingKind
+using enum LoadingKind;
 
-bool is_end(std::string_view key) {
-    return key.starts_with("until_");
+template <class... Kind>
+constexpr Kinds kinds(Kind... one) {
+    return ((1U << static_cast<unsigned>(one)) | ...);
 }
 
-bool is_gradient(std::string_view key) {
-    return key.starts_with("gradient_");
-}
+constexpr Kinds axial = kinds(isotropic, oedometric, uniaxial, biaxial);
+constexpr Kinds by_rate = axial | kinds(shear);
+constexpr Kinds to_stress = kinds(stress, probe);
+constexpr Kinds with_end = by_rate | to_stress | kinds(hold, gradient);
 
-void check_hold(const CheckedTable& stage, ErrorList& errors) {
-    if (!stage.has("duration"))
-        errors.add(stage.place, stage.full("duration"), "must be given: a hold ends after it");
-    for (const auto& [key, given] : stage.given)
-        if (key != "kind" && key != "duration")
-            errors.add(given.place, stage.full(key), "is not for a hold, whose walls stand still: remove it");
-}
-
-void check_gradient(const CheckedTable& stage, ErrorList& errors) {
-    if (!stage.has("duration"))
-        errors.add(stage.place, stage.full("duration"), "must be given: a gradient ends after it");
-    for (const auto& [key, given] : stage.given)
-        if (key != "kind" && key != "duration" && !is_gradient(key))
-            errors.add(given.place, stage.full(key),
-                       "is not for a gradient, whose velocity gradient and duration say all: remove it");
-    const bool moves = std::any_of(gradient_keys.begin(), gradient_keys.end(), [&](std::string_view key) {
-        return stage.has(key) && (!stage.sound({key}) || stage.settings.number(key) != 0.0);
-    });
-    if (!moves)
-        errors.add(stage.place, stage.path,
-                   "has no velocity gradient: give gradient_xx, gradient_xy or gradient_yy");
-}
-
-/// Keys that this kind of moving stage has no use for.
-void check_strangers(const CheckedTable& stage, const std::string& kind, ErrorList& errors) {
-    const bool shear = kind == "shear";
-    if (kind == "oedometric" && !stage.has("wall"))
-        errors.add(stage.place, stage.full("wall"),
-                   "must be given for an oedometric stage: left, right, bottom or top");
-    const auto not_for = [&](std::string_view key, std::string_view why) {
-        if (stage.has(key)) errors.add(stage.place_of(key), stage.full(key), why);
-    };
-    if (kind == "isotropic") not_for("wall", "is not for an isotropic stage, all walls move: remove it");
-    if (shear) {
-        not_for("wall", "is not for a shear, whose cell has no moving walls: remove it");
-        not_for("until_strain", "is not for a shear: use until_shear");
-        not_for("until_packing_fraction_undeformed", "is not for a shear, which keeps the area: remove it");
-    } else {
-        not_for("until_shear", "is for a shear only: use until_strain");
-    }
-    not_for("duration", "is for a hold or a gradient only: use an until_... key");
-    for (const std::string_view key : gradient_keys) not_for(key, "is for a gradient only: remove it");
-}
-
-void check_moving_stage(const CheckedTable& stage, const std::string& kind, ErrorList& errors) {
-    check_strangers(stage, kind, errors);
-    if (std::none_of(stage.given.begin(), stage.given.end(), [](const auto& g) { return is_end(g.first); }))
-        errors.add(stage.place, stage.path,
-                   kind == "shear" ? "has no end: give until_shear, until_packing_fraction or until_stress"
-                                   : "has no end: give until_strain, until_packing_fraction, "
-                                     "until_packing_fraction_undeformed or "
-                                     "until_stress");
-    if (stage.has("strain_rate") && stage.has("inertial_number"))
-        errors.add(std::max(stage.place_of("strain_rate"), stage.place_of("inertial_number"),
-                            [](const Place& a, const Place& b) { return a.line < b.line; }),
-                   stage.path, "has both strain_rate and inertial_number: remove one");
-    if (!stage.has("strain_rate") && !stage.has("inertial_number"))
-        errors.add(stage.place, stage.path, "has no speed: give strain_rate or inertial_number");
-}
-
-/// Strains at a point of the course, where they are known.
-struct Strains {
-    std::array<std::optional<double>, 2> axial{0.0, 0.0};
-    std::optional<double> shear = 0.0;
+/// The kinds that a key is for, and what to use instead for the others.
+struct KeyUse {
+    std::string_view key;
+    Kinds kinds;
+    std::string_view instead = "remove it";
+};
+constexpr std::array key_uses{
+    KeyUse{"wall", kinds(oedometric)},
+    KeyUse{"axis", kinds(uniaxial, biaxial)},
+    KeyUse{"lateral_stress", kinds(biaxial)},
+    KeyUse{"normal_stress", kinds(shear)},
+    KeyUse{"pressure", kinds(stress)},
+    KeyUse{"stress_xx", kinds(stress), "use until_stress_xx or remove it"},
+    KeyUse{"stress_yy", kinds(stress), "use until_stress_yy or remove it"},
+    KeyUse{"tolerance", to_stress},
+    KeyUse{"direction", kinds(probe)},
+    KeyUse{"stress_amplitude", kinds(probe)},
+    KeyUse{"strain_amplitude", kinds(probe)},
+    KeyUse{"stages", kinds(repeat)},
+    KeyUse{"times", kinds(repeat)},
+    KeyUse{"until_strain", axial, "use until_shear for a shear, or remove it"},
+    KeyUse{"until_shear", kinds(shear), "use until_strain"},
+    KeyUse{"until_packing_fraction", by_rate | kinds(stress)},
+    KeyUse{"until_packing_fraction_undeformed", by_rate | kinds(stress)},
+    KeyUse{"until_stress", by_rate, "use pressure for a stress, or remove it"},
+    KeyUse{"until_stress_xx", by_rate, "use stress_xx for a stress, or remove it"},
+    KeyUse{"until_stress_yy", by_rate, "use stress_yy for a stress, or remove it"},
+    KeyUse{"until_stress_ratio", by_rate},
+    KeyUse{"until_unbalanced", with_end & ~kinds(gradient)},
+    KeyUse{"duration", with_end},
+    KeyUse{"strain_rate", by_rate | to_stress},
+    KeyUse{"inertial_number", by_rate | to_stress},
+    KeyUse{"reverse", by_rate},
+    KeyUse{"gradient_xx", kinds(gradient)},
+    KeyUse{"gradient_xy", kinds(gradient)},
+    KeyUse{"gradient_yy", kinds(gradient)},
 };
 
-/// An end given as a strain lies ahead.
-void check_ahead(const CheckedTable& stage, std::string_view key, const std::optional<double>& now,
-                 ErrorList& errors) {
-    if (!now || !stage.has(key)) return;
-    const double until = stage.settings.number(key);
-    const bool reverse = stage.settings.boolean("reverse");
-    if (reverse ? until < *now : until > *now) return;
-    errors.add(stage.place_of(key), stage.full(key),
-               reverse
-                   ? fmt::format("must be below {:.6g}, where the stage begins, to be reached in reverse, "
-                                 "got {}",
-                                 *now, until)
-                   : fmt::format("must be above {:.6g}, where the stage begins, got {}; set reverse = "
-                                 "true to go back",
-                                 *now, until));
+std::string names_of(Kinds some) {
+    std::vector<std::string_view> names;
+    for (std::size_t k = 0; k < loading_kind_names.size(); ++k)
+        if ((some >> k & 1U) != 0) names.push_back(loading_kind_names[k]);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Where the stage leaves the strains. Only a stage with one end, and that a strain, is sure to reach it.
-Strains after(const CheckedTable& stage, const std::string& kind, Strains strains) {
-    const auto ends =
-        std::count_if(stage.given.begin(), stage.given.end(), [](const auto& g) { return is_end(g.first); });
-    if (kind == "gradient") return {{std::nullopt, std::nullopt}, std::nullopt};
-    if (kind == "shear") {
-        const bool sure = ends == 1 && stage.has("until_shear");
-        strains.shear = sure ? std::optional(stage.settings.number("until_shear")) : std::nullopt;
-        return strains;
+/// One stage, and what is said about it.
+class StageCheck {
+  public:
+    StageCheck(const CheckedTable& stage, ErrorList& errors)
+        : stage_(stage), errors_(errors), name_(stage.settings.text("kind")) {
+        kind_ = static_cast<LoadingKind>(position_in(loading_kind_names, name_));
     }
-    if (strains.shear != 0.0) strains.shear.reset();  // the height changes
-    const bool sure = ends == 1 && stage.has("until_strain");
-    const double until = sure ? stage.settings.number("until_strain") : 0.0;
-    if (kind == "oedometric") {
-        const std::string& wall = stage.settings.text("wall");
-        auto& axial = strains.axial[wall == "left" || wall == "right" ? 0 : 1];
-        axial = sure ? std::optional(until) : std::nullopt;
-        return strains;
+
+    void check(std::size_t number, std::span<const CheckedTable> stages, const CheckedTable& box) {
+        check_strangers();
+        if ((kind_ == shear || kind_ == gradient) && box.sound({"periodic"}) &&
+            !box.settings.boolean("periodic"))
+            errors_.add(stage_.place_of("kind"), stage_.full("kind"),
+                        fmt::format("= \"{}\" needs a periodic cell: set box.periodic = true", name_));
+        check_needs();
+        if (kind_ == repeat) check_repeat(number, stages);
+        if (is(by_rate)) check_end();
+        if (is(by_rate | to_stress)) check_speed();
     }
-    const bool both = sure && strains.axial[0] && strains.axial[1];
-    const double way = both ? until - *strains.axial[0] : 0.0;
-    strains.axial[1] = both ? std::optional(*strains.axial[1] + way) : std::nullopt;
-    strains.axial[0] = sure ? std::optional(until) : std::nullopt;
-    return strains;
-}
+
+  private:
+    bool is(Kinds some) const { return (some & kinds(kind_)) != 0; }
+    bool has(std::string_view key) const { return stage_.has(key); }
+    void must(std::string_view key, std::string_view why) {
+        if (!has(key)) errors_.add(stage_.place, stage_.full(key), fmt::format("must be given {}", why));
+    }
+    void not_both(std::string_view first, std::string_view second) {
+        if (!has(first) || !has(second)) return;
+        const Place& place = std::max(stage_.place_of(first), stage_.place_of(second),
+                                      [](const Place& a, const Place& b) { return a.line < b.line; });
+        errors_.add(place, stage_.path, fmt::format("has both {} and {}: remove one", first, second));
+    }
+
+    void check_strangers() {
+        for (const KeyUse& use : key_uses)
+            if (has(use.key) && !is(use.kinds))
+                errors_.add(
+                    stage_.place_of(use.key), stage_.full(use.key),
+                    fmt::format("is for kind {} only, not {}: {}", names_of(use.kinds), name_, use.instead));
+        if (kind_ == shear && !has("normal_stress") && has("until_packing_fraction_undeformed"))
+            errors_.add(stage_.place_of("until_packing_fraction_undeformed"),
+                        stage_.full("until_packing_fraction_undeformed"),
+                        "is not for a shear without normal_stress, which keeps the area: remove it");
+    }
+
+    void check_needs() {
+        if (kind_ == oedometric) must("wall", "for an oedometric stage: left, right, bottom or top");
+        if (kind_ == biaxial) must("lateral_stress", "for a biaxial stage");
+        if (kind_ == repeat) must("stages", "for a repeat: how many stages before it");
+        if (is(kinds(hold, gradient))) must("duration", fmt::format("for a {}, which ends after it", name_));
+        if (kind_ == gradient) check_moves();
+        if (kind_ == stress) {
+            if (!has("pressure") && !has("stress_xx") && !has("stress_yy"))
+                errors_.add(stage_.place, stage_.path,
+                            "has no stress to go to: give pressure, or stress_xx, stress_yy or both");
+            not_both("pressure", "stress_xx");
+            not_both("pressure", "stress_yy");
+        }
+        if (kind_ == probe) {
+            must("direction", "for a probe: 0 is +xx, 90 is +yy");
+            if (!has("stress_amplitude") && !has("strain_amplitude"))
+                errors_.add(stage_.place, stage_.path,
+                            "has no amplitude: give stress_amplitude or strain_amplitude");
+            not_both("stress_amplitude", "strain_amplitude");
+            not_both("strain_amplitude", "tolerance");
+        }
+    }
+
+    void check_moves() {
+        constexpr std::array<std::string_view, 3> keys{"gradient_xx", "gradient_xy", "gradient_yy"};
+        const bool moves = std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+            return has(key) && (!stage_.sound({key}) || stage_.settings.number(key) != 0.0);
+        });
+        if (!moves)
+            errors_.add(stage_.place, stage_.path,
+                        "has no velocity gradient: give gradient_xx, gradient_xy or gradient_yy");
+    }
+
+    void check_end() {
+        const bool ends = std::any_of(stage_.given.begin(), stage_.given.end(), [](const auto& given) {
+            return given.first.starts_with("until_") || given.first == "duration";
+        });
+        if (!ends)
+            errors_.add(stage_.place, stage_.path,
+                        fmt::format("has no end: give {}, until_packing_fraction, until_stress, duration or "
+                                    "another until_... key",
+                                    kind_ == shear ? "until_shear" : "until_strain"));
+    }
+
+    void check_speed() {
+        not_both("strain_rate", "inertial_number");
+        if (!has("strain_rate") && !has("inertial_number"))
+            errors_.add(stage_.place, stage_.path, "has no speed: give strain_rate or inertial_number");
+    }
+
+    /// What is repeated is there, and is no repeat itself.
+    void check_repeat(std::size_t number, std::span<const CheckedTable> stages) {
+        if (!has("stages") || !stage_.sound({"stages"})) return;
+        const auto back = static_cast<std::size_t>(stage_.settings.integer("stages"));
+        if (back > number) {
+            errors_.add(stage_.place_of("stages"), stage_.full("stages"),
+                        fmt::format("must be at most {}, the stages before it, got {}", number, back));
+            return;
+        }
+        const auto repeated = stages.subspan(number - back, back);
+        if (std::any_of(repeated.begin(), repeated.end(), [](const CheckedTable& one) {
+                return one.sound({"kind"}) && one.settings.text("kind") == "repeat";
+            }))
+            errors_.add(stage_.place_of("stages"), stage_.full("stages"),
+                        "reaches back to another repeat: write out what it repeats");
+    }
+
+    const CheckedTable& stage_;
+    ErrorList& errors_;
+    const std::string& name_;
+    LoadingKind kind_;
+};
 
 }  // namespace
 
-void check_stage(const CheckedTable& stage, const CheckedTable& box, ErrorList& errors) {
-    if (!stage.sound({"kind"})) return;
-    const std::string& kind = stage.settings.text("kind");
-    if ((kind == "shear" || kind == "gradient") && box.sound({"periodic"}) &&
-        !box.settings.boolean("periodic"))
-        errors.add(stage.place_of("kind"), stage.full("kind"),
-                   fmt::format("= \"{}\" needs a periodic cell: set box.periodic = true", kind));
-    if (kind == "hold")
-        check_hold(stage, errors);
-    else if (kind == "gradient")
-        check_gradient(stage, errors);
-    else
-        check_moving_stage(stage, kind, errors);
-}
-
-void check_course(std::span<const CheckedTable> stages, ErrorList& errors) {
-    Strains now;
-    for (const CheckedTable& stage : stages) {
-        const std::string& kind = stage.settings.text("kind");
-        const bool needs_wall = kind == "oedometric" && !stage.settings.has("wall");
-        if (needs_wall || !stage.sound({"kind", "wall", "until_strain", "until_shear", "reverse"}))
-            return;  // reported already; what follows is not known
-        if (kind == "hold") continue;
-        if (kind == "shear") check_ahead(stage, "until_shear", now.shear, errors);
-        if (kind == "isotropic") check_ahead(stage, "until_strain", now.axial[0], errors);
-        if (kind == "oedometric") {
-            const std::string& wall = stage.settings.text("wall");
-            check_ahead(stage, "until_strain", now.axial[wall == "left" || wall == "right" ? 0 : 1], errors);
-        }
-        now = after(stage, kind, now);
-    }
+void check_stage(std::span<const CheckedTable> stages, std::size_t number, const CheckedTable& box,
+                 ErrorList& errors) {
+    if (stages[number].sound({"kind"})) StageCheck(stages[number], errors).check(number, stages, box);
 }
 
 }  // namespace softgrain::scenario_io

@@ -5,11 +5,13 @@
 
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
+#include "common/io/scenario_stages.hpp"
 
 namespace softgrain {
 namespace {
 
 using namespace scenario_io;
+using scenario_io::settings_of;
 
 std::string toml_text(std::string_view text) {
     std::string out = "\"";
@@ -50,10 +52,6 @@ std::string written(const Settings& settings, std::span<const KeySpec> keys) {
     return out;
 }
 
-void set_optional(Settings& settings, std::string_view key, const std::optional<double>& value) {
-    if (value) settings.set(key, *value);
-}
-
 Settings settings_of(const Material& m) {
     Settings s;
     s.set("youngs_modulus", m.youngs_modulus);
@@ -92,28 +90,6 @@ Settings settings_of(const PackingSpec& p) {
     s.set("radius_max", p.radius_max);
     s.set("fractal_dimension", p.fractal_dimension);
     set_optional(s, "packing_fraction", p.packing_fraction);
-    return s;
-}
-
-Settings settings_of(const LoadingStage& stage) {
-    Settings s;
-    s.set("kind", std::string(loading_kind_names[static_cast<std::size_t>(stage.kind)]));
-    if (stage.kind == LoadingKind::oedometric)
-        s.set("wall", std::string(wall_names[static_cast<std::size_t>(stage.wall)]));
-    set_optional(s, "until_strain", stage.until_strain);
-    set_optional(s, "until_packing_fraction", stage.until_packing_fraction);
-    set_optional(s, "until_packing_fraction_undeformed", stage.until_packing_fraction_undeformed);
-    set_optional(s, "until_shear", stage.until_shear);
-    set_optional(s, "until_stress", stage.until_stress);
-    set_optional(s, "duration", stage.duration);
-    set_optional(s, "strain_rate", stage.strain_rate);
-    set_optional(s, "inertial_number", stage.inertial_number);
-    if (stage.reverse) s.set("reverse", true);
-    if (stage.kind == LoadingKind::gradient) {
-        s.set("gradient_xx", stage.gradient_xx);
-        s.set("gradient_xy", stage.gradient_xy);
-        s.set("gradient_yy", stage.gradient_yy);
-    }
     return s;
 }
 

@@ -91,6 +91,12 @@ constexpr std::array table{
     Observable{"unconverged_steps", "", N::base,
                [](const Frame& f) { return f.view.contact_report.unconverged_steps; }},
     Observable{"fragments", "", N::base, [](const Frame& f) { return f.view.fragments; }},
+    Observable{"strain_xx", "", N::base,
+               [](const Frame& f) { return 1.0 - f.view.box.width() / f.initial_box.width(); }},
+    Observable{"strain_yy", "", N::base,
+               [](const Frame& f) { return 1.0 - f.view.box.height() / f.initial_box.height(); }},
+    Observable{"volumetric_strain", "", N::base,
+               [](const Frame& f) { return 1.0 - f.view.box.area() / f.initial_box.area(); }},
 };
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "common/errors.hpp"
 #include "common/refusals.hpp"
 
@@ -8,7 +11,7 @@ namespace {
 
 std::string refusal(const Scenario& scenario, const Packing& packing, Feature feature) {
     try {
-        refuse(scenario, packing, "cubes", feature, "they are stiff");
+        refuse(scenario, packing, "cubes", std::array{Refusal{feature, "they are stiff"}});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -54,6 +57,23 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
               std::string::npos);
     EXPECT_NE(refusal(s, p, Feature::yield_stress).find("grain_class.2.yield_stress = 0.4 is not"),
               std::string::npos);
+}
+
+TEST(Refusals, AreWhatTheTableOfFeaturesLeavesOut) {
+    const std::array refusals{Refusal{Feature::periodic_cell, "they are stiff"}};
+    int left_out = 0;
+    for (const FeatureRow& row : feature_rows()) {
+        EXPECT_EQ(has_feature(refusals, row), row.needs != Feature::periodic_cell) << row.title;
+        EXPECT_TRUE(has_feature({}, row)) << row.title;
+        left_out += has_feature(refusals, row) ? 0 : 1;
+    }
+    EXPECT_EQ(left_out, 3);
+    for (const Feature feature :
+         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
+          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+        EXPECT_TRUE(std::any_of(feature_rows().begin(), feature_rows().end(), [&](const FeatureRow& row) {
+            return row.needs == feature;
+        })) << "a feature without a row";
 }
 
 }  // namespace

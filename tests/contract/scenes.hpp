@@ -17,11 +17,14 @@ struct Bands {
     double placing;   ///< largest shift of a centroid when grains are placed [mean radius]
     double at_rest;   ///< largest drift of a free grain [mean radius]
     double symmetry;  ///< difference in position [mean radius] and area between a scene and its image
-    double symmetry_of_stress;  ///< relative
-    double equilibrium;         ///< relative difference between wall and Love-Weber stress at rest
-    double ledger;              ///< energy residual / external work
-    double closed_pores;        ///< covered area may exceed the sum of grain areas by this share
-    double loading_time;        ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
+    double symmetry_of_stress;     ///< relative
+    double equilibrium;            ///< relative difference between wall and Love-Weber stress at rest
+    double ledger;                 ///< energy residual / external work
+    double closed_pores;           ///< covered area may exceed the sum of grain areas by this share
+    double loading_time;           ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
+    double servo_pressure;         ///< that servo-control is tried at [stress scale]
+    double servo_inertial_number;  ///< of the walls then
+    double servo_waves;            ///< time for each step of pressure [width / sqrt(stress scale / rho)]
     double cell =
         0.0;  ///< periodic cell: relative difference of stress by another choice of its edges; 0: none
 };
@@ -43,6 +46,10 @@ Packing square_lattice(int side);
 
 /// The packing turned by 90 degrees or mirrored about the box's middle: x' = middle + image (x - middle).
 Packing image_of(const Packing& packing, const Mat2& image);
+
+/// A stage that goes to this pressure, and the scenario of such stages with friction.
+LoadingStage to_pressure(double pressure, double inertial_number);
+Scenario served(const Bands& bands, std::vector<LoadingStage> stages);
 
 std::unique_ptr<Solver> make(const Bands& bands, const Scenario& scenario, const Packing& packing);
 

@@ -82,8 +82,8 @@ const std::vector<Case> names{
 
 const std::vector<Case> stages{
     {"[[loading]]\nstrain_rate = 1\n",
-     "s.toml:1:1: loading.0 has no end: give until_strain, until_packing_fraction, "
-     "until_packing_fraction_undeformed or until_stress"},
+     "s.toml:1:1: loading.0 has no end: give until_strain, until_packing_fraction, until_stress, duration or "
+     "another until_... key"},
     {"[[loading]]\nuntil_strain = 0.1\n",
      "s.toml:1:1: loading.0 has no speed: give strain_rate or inertial_number"},
     {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\ninertial_number = 1e-3\n",
@@ -96,12 +96,16 @@ const std::vector<Case> stages{
      "s.toml:3:8: loading.0.wall must be one of left, right, bottom, top, got \"topp\" (did you mean "
      "'top'?)"},
     {"[[loading]]\nwall = \"top\"\nuntil_strain = 0.5\nstrain_rate = 1\n",
-     "s.toml:2:8: loading.0.wall is not for an isotropic stage, all walls move: remove it"},
-    {"[[loading]]\nkind = \"hold\"\n", "s.toml:1:1: loading.0.duration must be given: a hold ends after it"},
+     "s.toml:2:8: loading.0.wall is for kind oedometric only, not isotropic: remove it"},
+    {"[[loading]]\nkind = \"hold\"\n",
+     "s.toml:1:1: loading.0.duration must be given for a hold, which ends after it"},
     {"[[loading]]\nkind = \"hold\"\nduration = 1\nstrain_rate = 1\n",
-     "s.toml:4:15: loading.0.strain_rate is not for a hold, whose walls stand still: remove it"},
-    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\nduration = 1\n",
-     "s.toml:4:12: loading.0.duration is for a hold or a gradient only: use an until_... key"},
+     "s.toml:4:15: loading.0.strain_rate is for kind isotropic, oedometric, shear, uniaxial, biaxial, "
+     "stress, "
+     "probe only, not hold: remove it"},
+    {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\nduration = 1\n", ""},
+    {"[[loading]]\nduration = 1\nstrain_rate = 1\n", ""},
+    {"[[loading]]\nkind = \"hold\"\nduration = 1\nuntil_unbalanced = 1e-3\n", ""},
     {"[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nuntil_stress = 0\nstrain_rate = 1\n",
      "s.toml:5:16: loading.1.until_stress must be > 0, got 0"},
 };
@@ -119,30 +123,113 @@ const std::vector<Case> cell_stages{
     {"[[loading]]\nkind = \"gradient\"\ngradient_xy = 0.1\nduration = 1\n",
      "s.toml:2:8: loading.0.kind = \"gradient\" needs a periodic cell: set box.periodic = true"},
     in_cell("[[loading]]\nkind = \"shear\"\nstrain_rate = 1\n",
-            "s.toml:3:1: loading.0 has no end: give until_shear, until_packing_fraction or until_stress"),
+            "s.toml:3:1: loading.0 has no end: give until_shear, until_packing_fraction, until_stress, "
+            "duration or "
+            "another until_... key"),
     in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\n",
             "s.toml:3:1: loading.0 has no speed: give strain_rate or inertial_number"),
-    in_cell("[[loading]]\nkind = \"shear\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
-            "s.toml:5:16: loading.0.until_strain is not for a shear: use until_shear"),
+    in_cell(
+        "[[loading]]\nkind = \"shear\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
+        "s.toml:5:16: loading.0.until_strain is for kind isotropic, oedometric, uniaxial, biaxial only, not "
+        "shear: use until_shear for a shear, or remove it"),
     in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\nwall = \"top\"\nstrain_rate = 1\n",
-            "s.toml:6:8: loading.0.wall is not for a shear, whose cell has no moving walls: remove it"),
+            "s.toml:6:8: loading.0.wall is for kind oedometric only, not shear: remove it"),
     in_cell("[[loading]]\nkind = \"shear\"\nuntil_packing_fraction_undeformed = 1.0\nstrain_rate = 1\n",
-            "s.toml:5:37: loading.0.until_packing_fraction_undeformed is not for a shear, which keeps the "
-            "area: remove it"),
+            "s.toml:5:37: loading.0.until_packing_fraction_undeformed is not for a shear without "
+            "normal_stress, which keeps the area: remove it"),
     in_cell("[[loading]]\nuntil_shear = 0.1\nuntil_strain = 0.1\nstrain_rate = 1\n",
-            "s.toml:4:15: loading.0.until_shear is for a shear only: use until_strain"),
+            "s.toml:4:15: loading.0.until_shear is for kind shear only, not isotropic: use until_strain"),
     in_cell("[[loading]]\nuntil_strain = 0.1\nstrain_rate = 1\ngradient_xx = 1\n",
-            "s.toml:6:15: loading.0.gradient_xx is for a gradient only: remove it"),
+            "s.toml:6:15: loading.0.gradient_xx is for kind gradient only, not isotropic: remove it"),
     in_cell("[[loading]]\nkind = \"gradient\"\ngradient_xy = 0.1\n",
-            "s.toml:3:1: loading.0.duration must be given: a gradient ends after it"),
+            "s.toml:3:1: loading.0.duration must be given for a gradient, which ends after it"),
     in_cell("[[loading]]\nkind = \"gradient\"\nduration = 1\ngradient_xy = 0\n",
             "s.toml:3:1: loading.0 has no velocity gradient: give gradient_xx, gradient_xy or gradient_yy"),
-    in_cell("[[loading]]\nkind = \"gradient\"\nduration = 1\ngradient_xy = 1\nuntil_strain = 0.1\n",
-            "s.toml:7:16: loading.0.until_strain is not for a gradient, whose velocity gradient and duration "
-            "say all: remove it"),
+    in_cell(
+        "[[loading]]\nkind = \"gradient\"\nduration = 1\ngradient_xy = 1\nuntil_strain = 0.1\n",
+        "s.toml:7:16: loading.0.until_strain is for kind isotropic, oedometric, uniaxial, biaxial only, not "
+        "gradient: use until_shear for a shear, or remove it"),
+};
+
+const std::vector<Case> stress_stages{
+    {"[[loading]]\nkind = \"biaxial\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0.lateral_stress must be given for a biaxial stage"},
+    {"[[loading]]\nkind = \"biaxial\"\nlateral_stress = 0\nuntil_strain = 0.1\nstrain_rate = 1\n",
+     "s.toml:3:18: loading.0.lateral_stress must be > 0, got 0"},
+    {"[[loading]]\nkind = \"uniaxial\"\naxis = \"z\"\nuntil_strain = 0.1\nstrain_rate = 1\n",
+     "s.toml:3:8: loading.0.axis must be one of x, y, got \"z\""},
+    {"[[loading]]\nkind = \"uniaxial\"\nlateral_stress = 1\nuntil_stress_ratio = 0.3\nstrain_rate = 1\n",
+     "s.toml:3:18: loading.0.lateral_stress is for kind biaxial only, not uniaxial: remove it"},
+    {"[[loading]]\nkind = \"stress\"\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0 has no stress to go to: give pressure, or stress_xx, stress_yy or both"},
+    {"[[loading]]\nkind = \"stress\"\npressure = 1\nstress_xx = 2\nstrain_rate = 1\n",
+     "s.toml:4:13: loading.0 has both pressure and stress_xx: remove one"},
+    {"[[loading]]\nkind = \"stress\"\npressure = 1\n",
+     "s.toml:1:1: loading.0 has no speed: give strain_rate or inertial_number"},
+    {"[[loading]]\nkind = \"stress\"\npressure = 1\nuntil_stress = 2\nstrain_rate = 1\n",
+     "s.toml:4:16: loading.0.until_stress is for kind isotropic, oedometric, shear, uniaxial, biaxial only, "
+     "not "
+     "stress: use pressure for a stress, or remove it"},
+    {"[[loading]]\nkind = \"probe\"\nstress_amplitude = 1\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0.direction must be given for a probe: 0 is +xx, 90 is +yy"},
+    {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstrain_rate = 1\n",
+     "s.toml:1:1: loading.0 has no amplitude: give stress_amplitude or strain_amplitude"},
+    {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstress_amplitude = 1\nstrain_amplitude = "
+     "0.1\nstrain_rate = "
+     "1\n",
+     "s.toml:5:20: loading.0 has both stress_amplitude and strain_amplitude: remove one"},
+    {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstrain_amplitude = 0.1\ntolerance = 0.1\nstrain_rate = "
+     "1\n",
+     "s.toml:5:13: loading.0 has both strain_amplitude and tolerance: remove one"},
+    {"[[loading]]\nkind = \"repeat\"\n",
+     "s.toml:1:1: loading.0.stages must be given for a repeat: how many stages before it"},
+    in("[[loading]]\nkind = \"repeat\"\nstages = 1",
+       "s.toml:3:10: loading.0.stages must be at most 0, the stages before it, got 1"),
+    {std::string(stage) + "[[loading]]\nkind = \"repeat\"\nstages = 1\nstrain_rate = 1\n",
+     "s.toml:6:10: loading.1.stages repeats a stage that would have to go back: end the last of them where "
+     "the "
+     "first began\n"
+     "s.toml:7:15: loading.1.strain_rate is for kind isotropic, oedometric, shear, uniaxial, biaxial, "
+     "stress, "
+     "probe only, not repeat: remove it"},
+    in_cell("[[loading]]\nkind = \"shear\"\nuntil_shear = 0.1\nnormal_stress = -1\nstrain_rate = 1\n",
+            "s.toml:6:17: loading.0.normal_stress must be > 0, got -1"),
 };
 
 const std::vector<Case> courses{
+    // Cycles end where they began, or not.
+    {"[[loading]]\nkind = \"uniaxial\"\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nkind = "
+     "\"uniaxial\"\n"
+     "until_strain = 0.05\nstrain_rate = 1\nreverse = true\n[[loading]]\nkind = \"repeat\"\nstages = "
+     "2\ntimes = 9\n",
+     ""},
+    {"[[loading]]\nkind = \"uniaxial\"\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nkind = "
+     "\"uniaxial\"\n"
+     "until_strain = 0.2\nstrain_rate = 1\n[[loading]]\nkind = \"repeat\"\nstages = 2\ntimes = 9\n",
+     "s.toml:11:10: loading.2.stages repeats a stage that would have to go back: end the last of them where "
+     "the "
+     "first began"},
+    {"[[loading]]\nkind = \"uniaxial\"\nuntil_strain = 0.1\nstrain_rate = 1\n[[loading]]\nkind = \"repeat\"\n"
+     "stages = 1\n[[loading]]\nkind = \"repeat\"\nstages = 2\n",
+     "s.toml:7:10: loading.1.stages repeats a stage that would have to go back: end the last of them where "
+     "the "
+     "first began\n"
+     "s.toml:10:10: loading.2.stages reaches back to another repeat: write out what it repeats"},
+    // A probe by strain along y, then uniaxial along y from there.
+    {"[[loading]]\nkind = \"probe\"\ndirection = 90\nstrain_amplitude = 0.1\nstrain_rate = "
+     "1\n[[loading]]\nkind = "
+     "\"uniaxial\"\nuntil_strain = 0.05\nstrain_rate = 1\n",
+     "s.toml:8:16: loading.1.until_strain must be above 0.1, where the stage begins, got 0.05; set reverse = "
+     "true "
+     "to go back"},
+    // Lateral stress leaves the other axis unknown, and a time the end.
+    {"[[loading]]\nkind = \"biaxial\"\nlateral_stress = 1\nuntil_strain = 0.1\nstrain_rate = "
+     "1\n[[loading]]\nkind = "
+     "\"uniaxial\"\naxis = \"x\"\nuntil_strain = -0.1\nstrain_rate = 1\n",
+     ""},
+    {"[[loading]]\nuntil_strain = 0.2\nduration = 5\nstrain_rate = 1\n[[loading]]\nuntil_strain = 0.1\n"
+     "strain_rate = 1\n",
+     ""},
     {"[[loading]]\nuntil_strain = 0.0\nstrain_rate = 1\n",
      "s.toml:2:16: loading.0.until_strain must be above 0, where the stage begins, got 0; set reverse = true "
      "to go back"},
@@ -225,6 +312,9 @@ TEST(ScenarioErrors, Stages) {
 }
 TEST(ScenarioErrors, StagesOfAPeriodicCell) {
     expect_messages(cell_stages);
+}
+TEST(ScenarioErrors, StagesByStress) {
+    expect_messages(stress_stages);
 }
 TEST(ScenarioErrors, StagesThatWouldHaveToGoBack) {
     expect_messages(courses);

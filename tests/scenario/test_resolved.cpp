@@ -22,6 +22,17 @@ void expect_same(const LoadingStage& a, const LoadingStage& b) {
     EXPECT_EQ(a.inertial_number, b.inertial_number);
     EXPECT_EQ(a.until_shear, b.until_shear);
     EXPECT_EQ(a.reverse, b.reverse);
+    EXPECT_EQ(a.axis, b.axis);
+    for (const auto member :
+         {&LoadingStage::lateral_stress, &LoadingStage::normal_stress, &LoadingStage::stress_xx,
+          &LoadingStage::stress_yy, &LoadingStage::stress_amplitude, &LoadingStage::strain_amplitude,
+          &LoadingStage::until_stress_xx, &LoadingStage::until_stress_yy, &LoadingStage::until_stress_ratio,
+          &LoadingStage::until_unbalanced})
+        EXPECT_EQ(a.*member, b.*member);
+    EXPECT_EQ(a.tolerance, b.tolerance);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.stages, b.stages);
+    EXPECT_EQ(a.times, b.times);
     EXPECT_EQ(a.gradient_xx, b.gradient_xx);
     EXPECT_EQ(a.gradient_xy, b.gradient_xy);
     EXPECT_EQ(a.gradient_yy, b.gradient_yy);
@@ -197,6 +208,83 @@ strain_rate = 1
     EXPECT_EQ(write_scenario(parse(written), methods()), written);
     EXPECT_EQ(parse(stage).class_count(), 1U);
     EXPECT_EQ(parse(stage).material_of(0).youngs_modulus, 1.0);
+}
+
+TEST(Resolved, StagesByStressAreWrittenAndReadBack) {
+    const std::string text = R"([box]
+periodic = true
+[[loading]]
+kind = "stress"
+pressure = 0.02
+tolerance = 0.005
+until_unbalanced = 1e-3
+inertial_number = 1e-3
+[[loading]]
+kind = "stress"
+stress_yy = 0.03
+duration = 50
+strain_rate = 1
+[[loading]]
+kind = "biaxial"
+axis = "x"
+lateral_stress = 0.02
+until_stress_ratio = 0.3
+until_stress_xx = 0.5
+until_stress_yy = 0.6
+until_strain = 0.1
+strain_rate = 1
+[[loading]]
+kind = "uniaxial"
+until_strain = 0.05
+strain_rate = 1
+[[loading]]
+kind = "probe"
+direction = -30
+stress_amplitude = 1e-3
+strain_rate = 1
+[[loading]]
+kind = "probe"
+direction = 120
+strain_amplitude = 1e-3
+strain_rate = 1
+[[loading]]
+kind = "shear"
+normal_stress = 0.02
+until_shear = 0.1
+strain_rate = 1
+[[loading]]
+kind = "shear"
+reverse = true
+until_shear = -0.1
+strain_rate = 1
+[[loading]]
+kind = "repeat"
+stages = 2
+times = 7
+)";
+    const Scenario s = parse(text);
+    EXPECT_EQ(s.loading[0].stress_xx, 0.02);
+    EXPECT_EQ(s.loading[0].stress_yy, 0.02);
+    EXPECT_FALSE(s.loading[1].stress_xx);
+    EXPECT_EQ(s.loading[2].axis, 0);
+    EXPECT_EQ(s.loading[3].axis, 1);
+    EXPECT_EQ(s.loading[4].direction, -30.0);
+    EXPECT_EQ(stage_order(s.loading).size(), 8U + 7U * 2U);
+    const std::string written = write_scenario(s, methods());
+    expect_same(parse(written), s);
+    EXPECT_EQ(write_scenario(parse(written), methods()), written);
+    const Scenario other = parse(text, {"loading.0.stress_xx=0.1", "loading.0.stress_yy=0.2"});
+    EXPECT_EQ(other.loading[0].stress_xx, 0.1) << "an option takes the place of the pressure";
+    EXPECT_EQ(other.loading[0].stress_yy, 0.2);
+    EXPECT_EQ(parse(text, {"loading.1.pressure=0.4"}).loading[1].stress_xx, 0.4);
+}
+
+TEST(Resolved, ARepeatRunsWhatCameBeforeIt) {
+    std::vector<LoadingStage> loading(4);
+    loading[2].kind = LoadingKind::repeat;
+    loading[2].stages = 2;
+    loading[2].times = 2;
+    EXPECT_EQ(stage_order(loading), (std::vector<std::size_t>{0, 1, 0, 1, 0, 1, 3}));
 }
 
 TEST(Resolved, APackingFileStaysTheSameFileFromAnotherFolder) {
