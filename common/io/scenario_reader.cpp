@@ -61,6 +61,7 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
     packing.radius_min = s.number("radius_min");
     packing.radius_max = s.number("radius_max");
     packing.fractal_dimension = s.number("fractal_dimension");
+    packing.small_share = s.number("small_share");
     packing.packing_fraction = optional_number(s, "packing_fraction");
     return packing;
 }

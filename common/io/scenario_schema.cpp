@@ -58,8 +58,9 @@ const std::vector<KeySpec> class_keys{
 const std::vector<KeySpec> packing_keys{
     {"path", text, Value(), "",
      "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
-    {"size_law", text, Value(std::string(size_law_names[0])), "", "distribution of the grain radii",
-     any_number, words(size_law_names)},
+    {"size_law", text, Value(std::string(size_law_names[0])), "",
+     "distribution of the grain radii: uniform by number, uniform_volume by area", any_number,
+     words(size_law_names)},
     {"count", integer, Value(std::int64_t{PackingSpec{}.count}), "", "number of grains", Range{1.0, 1e6}},
     {"radius_mean", number, PackingSpec{}.radius_mean, "m",
      "mean of gaussian before the cut; radius of single", positive},
@@ -69,6 +70,8 @@ const std::vector<KeySpec> packing_keys{
     {"radius_max", number, PackingSpec{}.radius_max, "m", "largest radius (all laws but single)", positive},
     {"fractal_dimension", number, PackingSpec{}.fractal_dimension, "", "D of fractal: N(>r) ~ r^-D",
      positive},
+    {"small_share", number, PackingSpec{}.small_share, "",
+     "of two_sizes: grains of radius_min / all grains, by number; the rest are of radius_max", fraction},
     {"packing_fraction", number, Value(), "",
      "stop at this undeformed packing fraction; without it at the jamming point (of ellipses: of the discs "
      "around them)",

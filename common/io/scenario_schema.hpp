@@ -9,8 +9,8 @@
 
 namespace softgrain::scenario_io {
 
-inline constexpr std::array<std::string_view, 4> size_law_names{"gaussian", "fractal", "uniform_volume",
-                                                                "single"};
+inline constexpr std::array<std::string_view, 6> size_law_names{"gaussian", "fractal", "uniform_volume",
+                                                                "single",   "uniform", "two_sizes"};
 inline constexpr std::array<std::string_view, 5> loading_kind_names{"isotropic", "oedometric", "hold",
                                                                     "shear", "gradient"};
 

@@ -91,6 +91,7 @@ Settings settings_of(const PackingSpec& p) {
     s.set("radius_min", p.radius_min);
     s.set("radius_max", p.radius_max);
     s.set("fractal_dimension", p.fractal_dimension);
+    s.set("small_share", p.small_share);
     set_optional(s, "packing_fraction", p.packing_fraction);
     return s;
 }

@@ -46,6 +46,7 @@ void expect_same(const PackingSpec& a, const PackingSpec& b) {
     EXPECT_EQ(a.radius_min, b.radius_min);
     EXPECT_EQ(a.radius_max, b.radius_max);
     EXPECT_EQ(a.fractal_dimension, b.fractal_dimension);
+    EXPECT_EQ(a.small_share, b.small_share);
     EXPECT_EQ(a.packing_fraction, b.packing_fraction);
 }
 
@@ -107,6 +108,7 @@ radius_deviation = 0.0024
 radius_min = 0.004
 radius_max = 0.038
 fractal_dimension = 1.7
+small_share = 0.25
 packing_fraction = 0.6
 [box]
 width = 2
