@@ -34,9 +34,13 @@ struct GrainClass {
 
 enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_sizes };
 
+/// growth: of the radii from the inside, from random places to jamming; random_sequential: at random places.
+enum class Generator { growth, random_sequential };
+
 /// Where the initial discs come from: a file of x,y,r or a generator.
 struct PackingSpec {
     std::optional<std::filesystem::path> path;  ///< CSV of x,y,r [m]
+    Generator generator = Generator::growth;
     SizeLaw size_law = SizeLaw::gaussian;
     int count = 50;
     double radius_mean = 1.0;       ///< [m] gaussian, single

@@ -54,6 +54,7 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
     const Settings& s = table.settings;
     PackingSpec packing;
     if (s.has("path")) packing.path = packing_file(table, folder);
+    packing.generator = generator_of(s);
     packing.size_law = static_cast<SizeLaw>(position_in(size_law_names, s.text("size_law")));
     packing.count = static_cast<int>(s.integer("count"));
     packing.radius_mean = s.number("radius_mean");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -58,6 +59,10 @@ const std::vector<KeySpec> class_keys{
 const std::vector<KeySpec> packing_keys{
     {"path", text, Value(), "",
      "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
+    {"generator", text, Value(std::string(generator_names[0])), "",
+     "growth of the radii from the inside, to jamming; random_sequential: the largest first, at random "
+     "places",
+     any_number, words(generator_names)},
     {"size_law", text, Value(std::string(size_law_names[0])), "",
      "distribution of the grain radii: uniform by number, uniform_volume by area", any_number,
      words(size_law_names)},
@@ -73,8 +78,9 @@ const std::vector<KeySpec> packing_keys{
     {"small_share", number, PackingSpec{}.small_share, "",
      "of two_sizes: grains of radius_min / all grains, by number; the rest are of radius_max", fraction},
     {"packing_fraction", number, Value(), "",
-     "stop at this undeformed packing fraction; without it at the jamming point (of ellipses: of the discs "
-     "around them)",
+     "stop at this undeformed packing fraction; without it growth stops at the jamming point (of ellipses: "
+     "of "
+     "the discs around them)",
      fraction},
 };
 
@@ -146,6 +152,11 @@ const TableSpec& core_table(std::string_view name) {
     for (const TableSpec& table : tables)
         if (table.name == name) return table;
     throw std::logic_error(fmt::format("no scenario table '{}'", name));
+}
+
+Generator generator_of(const Settings& packing) {
+    const auto* name = std::find(generator_names.begin(), generator_names.end(), packing.text("generator"));
+    return static_cast<Generator>(name - generator_names.begin());
 }
 
 std::string describe(const Range& range) {

@@ -5,12 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "common/scenario.hpp"
 #include "common/settings.hpp"
 
 namespace softgrain::scenario_io {
 
 inline constexpr std::array<std::string_view, 6> size_law_names{"gaussian", "fractal", "uniform_volume",
                                                                 "single",   "uniform", "two_sizes"};
+inline constexpr std::array<std::string_view, 2> generator_names{"growth", "random_sequential"};
 inline constexpr std::array<std::string_view, 5> loading_kind_names{"isotropic", "oedometric", "hold",
                                                                     "shear", "gradient"};
 
@@ -25,6 +27,9 @@ struct TableSpec {
 std::span<const TableSpec> core_tables();
 /// Throws std::logic_error if there is none.
 const TableSpec& core_table(std::string_view name);
+
+/// By the key of [packing].
+Generator generator_of(const Settings& packing);
 
 /// "> 0", ">= 0 and <= 0.5", or "" for any number.
 std::string describe(const Range& range);

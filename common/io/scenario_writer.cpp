@@ -84,6 +84,7 @@ Settings settings_of(const PackingSpec& p) {
         s.set("path", p.path->string());
         return s;
     }
+    s.set("generator", std::string(generator_names[static_cast<std::size_t>(p.generator)]));
     s.set("size_law", std::string(size_law_names[static_cast<std::size_t>(p.size_law)]));
     s.set("count", std::int64_t{p.count});
     s.set("radius_mean", p.radius_mean);

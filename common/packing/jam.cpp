@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "common/errors.hpp"
@@ -24,14 +23,8 @@ constexpr double no_limit = 2.0;          // a packing fraction that no discs re
 constexpr int most_steps = 50'000;        // of one relaxation
 constexpr int most_refinements = 100;
 
-double area_of(const std::vector<double>& radii) {
-    double area = 0.0;
-    for (const double r : radii) area += std::numbers::pi * r * r;
-    return area;
-}
-
 double fraction_of(const OverlapEnergy& discs) {
-    return area_of(discs.radius()) / discs.box().area();
+    return disc_area(discs.radius()) / discs.box().area();
 }
 
 void open_to(OverlapEnergy& discs, double fraction) {
@@ -39,21 +32,19 @@ void open_to(OverlapEnergy& discs, double fraction) {
 }
 
 /// Discs at random between the walls, or anywhere in a periodic cell; they may overlap.
-OverlapEnergy placed_at_random(const std::vector<double>& radii, const JamRequest& request, double fraction,
-                               Random& random) {
-    const double aspect = request.aspect_ratio;
-    const double width = std::sqrt(area_of(radii) / (fraction * aspect));
-    const double height = aspect * width;
+OverlapEnergy placed_at_random(const std::vector<double>& radii, const PackingRequest& request,
+                               double fraction, Random& random) {
+    const Box box = request.box_for(radii, fraction);
     const auto coordinate = [&](double r, double length) {
         if (request.periodic) return random.between(0.0, length);
         return 2.0 * r < length ? random.between(r, length - r) : 0.5 * length;
     };
     std::vector<Vec2> center;
     for (const double r : radii) {
-        const double x = coordinate(r, width);
-        center.emplace_back(x, coordinate(r, height));
+        const double x = coordinate(r, box.width());
+        center.emplace_back(x, coordinate(r, box.height()));
     }
-    return {radii, std::move(center), Box{{0.0, width, 0.0, height}, request.periodic}};
+    return {radii, std::move(center), box};
 }
 
 /// Compresses free discs until they reach `fraction`; false if they jam before.
@@ -132,13 +123,13 @@ Packing in_units_of(double length, const OverlapEnergy& discs, const std::vector
 
 }  // namespace
 
-JammedPacking jam(const std::vector<double>& radii, const JamRequest& request, Random& random) {
+JammedPacking jam(const std::vector<double>& radii, const PackingRequest& request, Random& random) {
     const double mean = std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
     std::vector<double> in_means = radii;
     for (double& r : in_means) r /= mean;
 
     const auto& packing_fraction = request.packing_fraction;
-    const double limit = packing_fraction ? *packing_fraction / request.grain_share : no_limit;
+    const double limit = request.disc_fraction_or(no_limit);
     OverlapEnergy discs = placed_at_random(in_means, request, std::min(first_fraction, limit), random);
     // A little beyond the limit, so that opening the box to it leaves no overlap.
     std::vector<Pair> contacts;

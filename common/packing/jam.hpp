@@ -1,22 +1,12 @@
 #pragma once
 // Frictionless discs between four walls or in a periodic cell, compressed to the point where they jam.
-#include <optional>
 #include <vector>
 
 #include "common/packing/packing.hpp"
+#include "common/packing/packing_request.hpp"
 #include "common/packing/random.hpp"
 
 namespace softgrain {
-
-/// What is to be made, beside the radii.
-struct JamRequest {
-    double aspect_ratio = 1.0;  ///< height / width
-    /// Stop at this packing fraction of the grains, below jamming.
-    std::optional<double> packing_fraction = {};
-    bool periodic = false;
-    double grain_share =
-        1.0;  ///< area of the grains / area of the discs, less than 1 for grains inside discs
-};
 
 struct JammedPacking {
     Packing packing;                   ///< no overlaps; box [0, width] x [0, height]
@@ -34,6 +24,6 @@ inline constexpr double jamming_tolerance = 5e-7;
 /// `packing_fraction` it is below jamming by not more than a linear strain of jamming_tolerance mean radius /
 /// smallest radius. Throws InputError if it jams before `packing_fraction`, or if a periodic cell is too
 /// small for these discs.
-JammedPacking jam(const std::vector<double>& radii, const JamRequest& request, Random& random);
+JammedPacking jam(const std::vector<double>& radii, const PackingRequest& request, Random& random);
 
 }  // namespace softgrain

@@ -198,6 +198,9 @@ const std::vector<Case> packings{
        "s.toml:2:15: packing.radius_mean must be at most radius_max = 1.333, got 2"),
     in("[packing]\nradius_max = 0.9",
        "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
+    in("[packing]\ngenerator = \"random_sequential\"",
+       "s.toml:2:13: packing.generator = \"random_sequential\" has no end of its own: give "
+       "packing.packing_fraction"),
     in("[packing]\nsize_law = \"fractal\"\nradius_min = 2.0\nradius_max = 1.0",
        "s.toml:4:14: packing.radius_max must be at least radius_min = 2, got 1"),
     in("[packing]\nsize_law = \"fractal\"\nradius_min = 1e-6\nradius_max = 1.0",

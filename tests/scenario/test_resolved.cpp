@@ -39,6 +39,7 @@ void expect_same(const Material& a, const Material& b) {
 
 void expect_same(const PackingSpec& a, const PackingSpec& b) {
     EXPECT_EQ(a.path, b.path);
+    EXPECT_EQ(a.generator, b.generator);
     EXPECT_EQ(a.size_law, b.size_law);
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.radius_mean, b.radius_mean);
@@ -101,6 +102,7 @@ poisson_ratio = 0.1
 density = 1e-300
 friction = 0.3
 [packing]
+generator = "random_sequential"
 size_law = "fractal"
 count = 77
 radius_mean = 0.012

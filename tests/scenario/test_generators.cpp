@@ -1,0 +1,154 @@
+// What every generator promises, and what each alone does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "common/errors.hpp"
+#include "common/packing/generators.hpp"
+#include "common/packing/make_packing.hpp"
+#include "common/packing/size_laws.hpp"
+#include "tests/scenario/examined_packing.hpp"
+
+namespace softgrain::test {
+namespace {
+
+struct Made {
+    std::vector<double> radii;
+    Packing packing;
+};
+
+Made made(Generator generator, const PackingSpec& spec, std::uint64_t seed, double aspect_ratio = 1.0,
+          bool periodic = false) {
+    Random random(seed);
+    std::vector<double> radii = draw_radii(spec, random);
+    Packing packing = generate(
+        generator, radii,
+        {.aspect_ratio = aspect_ratio, .packing_fraction = spec.packing_fraction, .periodic = periodic},
+        random);
+    return {std::move(radii), std::move(packing)};
+}
+
+PackingSpec sizes(int count, std::optional<double> fraction = {}) {
+    PackingSpec spec;
+    spec.count = count;
+    spec.packing_fraction = fraction;
+    return spec;
+}
+
+std::string error_of(Generator generator, const PackingSpec& spec, bool periodic = false) {
+    try {
+        made(generator, spec, 1, 1.0, periodic);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// A generator, and a packing fraction that it needs.
+struct Case {
+    Generator generator;
+    std::optional<double> fraction;
+    bool periodic;
+};
+
+class EveryGenerator : public testing::TestWithParam<Case> {};
+
+TEST_P(EveryGenerator, KeepsTheRadiiAndTheBox) {
+    const Case& c = GetParam();
+    for (const double aspect_ratio : {1.0, 0.5, 3.0}) {
+        const Made m = made(c.generator, sizes(80, c.fraction), 2, aspect_ratio, c.periodic);
+        EXPECT_EQ(m.packing.radius, m.radii);
+        ASSERT_EQ(m.packing.center.size(), m.radii.size());
+        EXPECT_EQ(m.packing.box.origin(), Vec2::Zero());
+        EXPECT_EQ(m.packing.box.periodic, c.periodic);
+        EXPECT_NEAR(m.packing.box.height() / m.packing.box.width(), aspect_ratio, 1e-12 * aspect_ratio);
+        EXPECT_GE(smallest_gap(m.packing), -1e-12);
+        if (c.fraction) {
+            EXPECT_NEAR(m.packing.packing_fraction_undeformed(), *c.fraction, 1e-12);
+        }
+    }
+}
+
+TEST_P(EveryGenerator, TakesSizesFarApart) {
+    PackingSpec spec = sizes(200, GetParam().fraction);
+    spec.size_law = SizeLaw::fractal;
+    spec.radius_min = 0.1;
+    spec.radius_max = 1.5;
+    const Made m = made(GetParam().generator, spec, 5, 1.0, GetParam().periodic);
+    EXPECT_EQ(m.packing.radius, m.radii);
+    EXPECT_GE(smallest_gap(m.packing), -1e-12);
+}
+
+TEST_P(EveryGenerator, TheSeedDecides) {
+    const Case& c = GetParam();
+    const auto of_seed = [&](std::uint64_t seed) {
+        return bits(made(c.generator, sizes(40, c.fraction), seed, 1.0, c.periodic).packing);
+    };
+    EXPECT_EQ(of_seed(6), of_seed(6));
+    EXPECT_NE(of_seed(6), of_seed(7));
+}
+
+TEST_P(EveryGenerator, PutsEllipsesInsideItsDiscs) {
+    const Case& c = GetParam();
+    Scenario scenario;
+    scenario.classes.resize(2);
+    scenario.classes[1].aspect_ratio = 2.0;
+    scenario.packing.generator = c.generator;
+    if (c.fraction) scenario.packing.packing_fraction = 0.25;
+    scenario.box = {4.0, 2.0, c.periodic};
+    const Packing p = make_packing(scenario);
+    Packing around = p;
+    for (std::size_t g = 0; g < p.size(); ++g) around.radius[g] = p.reach(g);
+    EXPECT_GE(smallest_gap(around), -1e-12);
+    EXPECT_EQ(p.box.width(), 4.0);
+    EXPECT_EQ(p.box.height(), 2.0);
+    if (c.fraction) {
+        EXPECT_NEAR(p.packing_fraction_undeformed(), 0.25, 1e-12);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Generators, EveryGenerator,
+                         testing::Values(Case{Generator::growth, {}, false},
+                                         Case{Generator::growth, 0.7, true},
+                                         Case{Generator::random_sequential, 0.4, false},
+                                         Case{Generator::random_sequential, 0.4, true}));
+
+TEST(RandomSequential, PlacesAreUniformWhereThereIsRoom) {
+    // 2000 discs that leave nearly all places free: their coordinates are uniform by Kolmogorov and Smirnov.
+    const Made m = made(Generator::random_sequential, sizes(2000, 0.01), 3, 2.0, true);
+    for (const int axis : {0, 1}) {
+        std::vector<double> places;
+        for (const Vec2& c : m.packing.center)
+            places.push_back(c[axis] / (axis == 0 ? m.packing.box.width() : m.packing.box.height()));
+        std::sort(places.begin(), places.end());
+        double largest = 0.0;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            largest = std::max(largest, std::abs(places[k] - (static_cast<double>(k) + 0.5) / 2000.0));
+        EXPECT_LT(largest, 1.95 / std::sqrt(2000.0)) << "axis " << axis;
+    }
+}
+
+TEST(RandomSequential, EqualDiscsSaturateWhereTheyAreKnownTo) {
+    // Infinite samples saturate at 0.5470; a million trials for a disc end a little before.
+    PackingSpec spec = sizes(400, 0.6);
+    spec.size_law = SizeLaw::single;
+    const std::string text = error_of(Generator::random_sequential, spec, true);
+    const std::string before =
+        "packing.packing_fraction 0.6 cannot be reached by random places: there was no "
+        "room left at ";
+    ASSERT_TRUE(text.starts_with(before)) << text;
+    // Standard deviation of 320 placed discs: 0.3 / sqrt(640) of the fraction, about 0.01.
+    EXPECT_NEAR(std::stod(text.substr(before.size())), 0.545, 0.02) << text;
+    spec.packing_fraction = 0.5;
+    EXPECT_EQ(error_of(Generator::random_sequential, spec, true), "");
+}
+
+TEST(RandomSequential, NeedsAPackingFraction) {
+    EXPECT_EQ(
+        error_of(Generator::random_sequential, sizes(10)),
+        "packing.generator = \"random_sequential\" has no end of its own: give packing.packing_fraction");
+}
+
+}  // namespace
+}  // namespace softgrain::test
