@@ -60,8 +60,8 @@ const std::vector<KeySpec> packing_keys{
     {"path", text, Value(), "",
      "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
     {"generator", text, Value(std::string(generator_names[0])), "",
-     "growth of the radii from the inside, to jamming; random_sequential: the largest first, at random "
-     "places",
+     "growth of the radii from the inside, to jamming; compaction by walls from the outside, to jamming; "
+     "random_sequential: the largest first, at random places",
      any_number, words(generator_names)},
     {"size_law", text, Value(std::string(size_law_names[0])), "",
      "distribution of the grain radii: uniform by number, uniform_volume by area", any_number,
@@ -78,7 +78,8 @@ const std::vector<KeySpec> packing_keys{
     {"small_share", number, PackingSpec{}.small_share, "",
      "of two_sizes: grains of radius_min / all grains, by number; the rest are of radius_max", fraction},
     {"packing_fraction", number, Value(), "",
-     "stop at this undeformed packing fraction; without it growth stops at the jamming point (of ellipses: "
+     "stop at this undeformed packing fraction; without it growth and compaction stop at the jamming point "
+     "(of ellipses: "
      "of "
      "the discs around them)",
      fraction},

@@ -8,8 +8,10 @@
 
 namespace softgrain {
 
-std::vector<KeyFault> generator_faults(Generator generator, bool has_packing_fraction, bool) {
+std::vector<KeyFault> generator_faults(Generator generator, bool has_packing_fraction, bool periodic) {
     std::vector<KeyFault> faults;
+    if (generator == Generator::compaction && periodic)
+        faults.push_back({"generator", "= \"compaction\" needs walls: use \"growth\" in a periodic cell"});
     if (generator == Generator::random_sequential && !has_packing_fraction)
         faults.push_back(
             {"generator", "= \"random_sequential\" has no end of its own: give packing.packing_fraction"});
@@ -24,6 +26,8 @@ Packing generate(Generator generator, const std::vector<double>& radii, const Pa
     switch (generator) {
         case Generator::random_sequential:
             return random_sequential(radii, request, random);
+        case Generator::compaction:
+            return compact(radii, request, random).packing;
         case Generator::growth:
             break;
     }

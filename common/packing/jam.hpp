@@ -24,6 +24,12 @@ inline constexpr double jamming_tolerance = 5e-7;
 /// `packing_fraction` it is below jamming by not more than a linear strain of jamming_tolerance mean radius /
 /// smallest radius. Throws InputError if it jams before `packing_fraction`, or if a periodic cell is too
 /// small for these discs.
+/// The box and the centres shrink together: the same as radii that grow in a box that stays.
 JammedPacking jam(const std::vector<double>& radii, const PackingRequest& request, Random& random);
+
+/// The same from the outside: the walls move in on a loose random packing without overlap, past discs that
+/// only they and other discs push. Not for a periodic cell. Throws InputError as well if the box is too
+/// narrow for the loose packing.
+JammedPacking compact(const std::vector<double>& radii, const PackingRequest& request, Random& random);
 
 }  // namespace softgrain

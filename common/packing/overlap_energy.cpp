@@ -34,6 +34,14 @@ void OverlapEnergy::scale(double factor) {
     for (Vec2& c : center_) c *= factor;
 }
 
+void OverlapEnergy::move_walls(double factor) {
+    const Vec2 before{box_.width(), box_.height()};
+    box_.position[1] *= factor;
+    box_.position[3] *= factor;
+    const Vec2 inward = 0.5 * (Vec2{box_.width(), box_.height()} - before);
+    for (Vec2& c : center_) c += inward;
+}
+
 void OverlapEnergy::update_neighbors() {
     if (!neighbors_.stale(center_, radius_, box_)) return;
     const double mean =

@@ -18,6 +18,8 @@ class OverlapEnergy {
 
     /// Scales the box and all centres about the origin.
     void scale(double factor);
+    /// Scales the box about its middle, past discs that stay where they are; with walls only.
+    void move_walls(double factor);
 
     struct State {
         double energy = 0.0;        ///< sum of overlap^2 / 2

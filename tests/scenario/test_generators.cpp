@@ -6,6 +6,7 @@
 
 #include "common/errors.hpp"
 #include "common/packing/generators.hpp"
+#include "common/packing/jam.hpp"
 #include "common/packing/make_packing.hpp"
 #include "common/packing/size_laws.hpp"
 #include "tests/scenario/examined_packing.hpp"
@@ -111,8 +112,45 @@ TEST_P(EveryGenerator, PutsEllipsesInsideItsDiscs) {
 INSTANTIATE_TEST_SUITE_P(Generators, EveryGenerator,
                          testing::Values(Case{Generator::growth, {}, false},
                                          Case{Generator::growth, 0.7, true},
+                                         Case{Generator::compaction, {}, false},
+                                         Case{Generator::compaction, 0.5, false},
                                          Case{Generator::random_sequential, 0.4, false},
                                          Case{Generator::random_sequential, 0.4, true}));
+
+TEST(Compaction, JamsFrictionlessDiscsIsostatically) {
+    // As many contacts as unknowns: 2 positions for each disc that carries, and the box size.
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        Random random(seed);
+        const auto radii = draw_radii(sizes(80), random);
+        const JammedPacking result = compact(radii, {}, random);
+        EXPECT_NEAR(result.contacts, 2 * (80 - result.rattlers) + 1, 2) << "seed " << seed;
+        EXPECT_GE(count_touching(result.packing, 4e-6), result.contacts);
+        EXPECT_NEAR(result.packing_fraction, 0.79, 0.03) << "as from the inside";
+    }
+}
+
+TEST(Compaction, PushesFromTheWalls) {
+    // Halfway there the discs stand close at the walls and loose in the middle; growth makes no difference.
+    const auto share_near_walls = [](Generator generator) {
+        const Packing p = made(generator, sizes(400, 0.55), 4).packing;
+        int near = 0;
+        for (const Vec2& c : p.center) {
+            const double x = c.x() / p.box.width(), y = c.y() / p.box.height();
+            near += std::min(std::min(x, 1.0 - x), std::min(y, 1.0 - y)) < 0.15 ? 1 : 0;
+        }
+        return near / 400.0;
+    };
+    // Half of the area, less the rim of a radius that no centre lies in: 0.466 +- 0.025.
+    EXPECT_NEAR(share_near_walls(Generator::growth), 0.466, 0.06);
+    EXPECT_GT(share_near_walls(Generator::compaction), 0.6);
+}
+
+TEST(Compaction, NeedsWallsAndAFractionBelowJamming) {
+    EXPECT_EQ(error_of(Generator::compaction, sizes(10), true),
+              "packing.generator = \"compaction\" needs walls: use \"growth\" in a periodic cell");
+    EXPECT_TRUE(error_of(Generator::compaction, sizes(60, 0.9))
+                    .starts_with("packing.packing_fraction 0.9 cannot be reached: these grains jam at 0."));
+}
 
 TEST(RandomSequential, PlacesAreUniformWhereThereIsRoom) {
     // 2000 discs that leave nearly all places free: their coordinates are uniform by Kolmogorov and Smirnov.
