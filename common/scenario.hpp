@@ -35,8 +35,8 @@ struct GrainClass {
 enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_sizes };
 
 /// growth: of the radii from the inside, from random places to jamming; random_sequential: at random places;
-/// compaction: by walls, from the outside.
-enum class Generator { growth, random_sequential, compaction };
+/// compaction: by walls, from the outside; geometric: each disc against two others.
+enum class Generator { growth, random_sequential, compaction, geometric };
 
 /// Where the initial discs come from: a file of x,y,r or a generator.
 struct PackingSpec {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/packing/generators.hpp"
 #include "common/packing/packing.hpp"
 #include "common/scenario.hpp"
 
@@ -61,7 +62,8 @@ const std::vector<KeySpec> packing_keys{
      "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
     {"generator", text, Value(std::string(generator_names[0])), "",
      "growth of the radii from the inside, to jamming; compaction by walls from the outside, to jamming; "
-     "random_sequential: the largest first, at random places",
+     "random_sequential: the largest first, at random places; geometric: each against two others, from the "
+     "middle outwards",
      any_number, words(generator_names)},
     {"size_law", text, Value(std::string(size_law_names[0])), "",
      "distribution of the grain radii: uniform by number, uniform_volume by area", any_number,

@@ -12,7 +12,6 @@ namespace softgrain::scenario_io {
 
 inline constexpr std::array<std::string_view, 6> size_law_names{"gaussian", "fractal", "uniform_volume",
                                                                 "single",   "uniform", "two_sizes"};
-inline constexpr std::array<std::string_view, 3> generator_names{"growth", "random_sequential", "compaction"};
 inline constexpr std::array<std::string_view, 5> loading_kind_names{"isotropic", "oedometric", "hold",
                                                                     "shear", "gradient"};
 

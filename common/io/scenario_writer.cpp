@@ -5,6 +5,7 @@
 
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
+#include "common/packing/generators.hpp"
 
 namespace softgrain {
 namespace {

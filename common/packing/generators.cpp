@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "common/errors.hpp"
+#include "common/packing/geometric.hpp"
 #include "common/packing/jam.hpp"
 #include "common/packing/random_sequential.hpp"
 
@@ -10,8 +13,16 @@ namespace softgrain {
 
 std::vector<KeyFault> generator_faults(Generator generator, bool has_packing_fraction, bool periodic) {
     std::vector<KeyFault> faults;
-    if (generator == Generator::compaction && periodic)
-        faults.push_back({"generator", "= \"compaction\" needs walls: use \"growth\" in a periodic cell"});
+    const std::string_view name = generator_names[static_cast<std::size_t>(generator)];
+    const bool needs_walls = generator == Generator::compaction || generator == Generator::geometric;
+    if (needs_walls && periodic)
+        faults.push_back(
+            {"generator", fmt::format("= \"{}\" needs walls: use \"growth\" in a periodic cell", name)});
+    if (generator == Generator::geometric && has_packing_fraction)
+        faults.push_back(
+            {"packing_fraction", fmt::format("has no effect with generator = \"{}\", what comes of it is not "
+                                             "controlled: remove it",
+                                             name)});
     if (generator == Generator::random_sequential && !has_packing_fraction)
         faults.push_back(
             {"generator", "= \"random_sequential\" has no end of its own: give packing.packing_fraction"});
@@ -28,6 +39,8 @@ Packing generate(Generator generator, const std::vector<double>& radii, const Pa
             return random_sequential(radii, request, random);
         case Generator::compaction:
             return compact(radii, request, random).packing;
+        case Generator::geometric:
+            return geometric(radii, request);
         case Generator::growth:
             break;
     }

@@ -1,5 +1,7 @@
 #pragma once
 // The generators by their names, and what a scenario cannot ask of them.
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "common/packing/packing.hpp"
@@ -9,6 +11,10 @@
 #include "common/settings.hpp"
 
 namespace softgrain {
+
+/// In the order of the enumeration.
+inline constexpr std::array<std::string_view, 4> generator_names{"growth", "random_sequential", "compaction",
+                                                                 "geometric"};
 
 /// Contradictions between the key packing.generator and packing.packing_fraction or box.periodic, each for
 /// the key (of [packing]) at which it is to be reported.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "common/errors.hpp"
@@ -109,13 +110,12 @@ TEST_P(EveryGenerator, PutsEllipsesInsideItsDiscs) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Generators, EveryGenerator,
-                         testing::Values(Case{Generator::growth, {}, false},
-                                         Case{Generator::growth, 0.7, true},
-                                         Case{Generator::compaction, {}, false},
-                                         Case{Generator::compaction, 0.5, false},
-                                         Case{Generator::random_sequential, 0.4, false},
-                                         Case{Generator::random_sequential, 0.4, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Generators, EveryGenerator,
+    testing::Values(Case{Generator::growth, {}, false}, Case{Generator::growth, 0.7, true},
+                    Case{Generator::compaction, {}, false}, Case{Generator::compaction, 0.5, false},
+                    Case{Generator::geometric, {}, false}, Case{Generator::random_sequential, 0.4, false},
+                    Case{Generator::random_sequential, 0.4, true}));
 
 TEST(Compaction, JamsFrictionlessDiscsIsostatically) {
     // As many contacts as unknowns: 2 positions for each disc that carries, and the box size.
@@ -150,6 +150,43 @@ TEST(Compaction, NeedsWallsAndAFractionBelowJamming) {
               "packing.generator = \"compaction\" needs walls: use \"growth\" in a periodic cell");
     EXPECT_TRUE(error_of(Generator::compaction, sizes(60, 0.9))
                     .starts_with("packing.packing_fraction 0.9 cannot be reached: these grains jam at 0."));
+}
+
+TEST(Geometric, EveryDiscTouchesTwoOthersAndItIsDense) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Packing p = made(Generator::geometric, sizes(600), seed).packing;
+        std::vector<int> touching(p.size(), 0);
+        for (std::size_t i = 0; i < p.size(); ++i)
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                const double gap = (p.center[i] - p.center[j]).norm() - p.radius[i] - p.radius[j];
+                touching[i] += i != j && gap < 1e-9 ? 1 : 0;
+            }
+        EXPECT_GE(*std::min_element(touching.begin(), touching.end()), 2);
+        // Each disc brings two contacts, the first two one less each, and rarely more by chance.
+        EXPECT_NEAR(std::accumulate(touching.begin(), touching.end(), 0), 2 * (2 * 600 - 3), 8);
+        EXPECT_GT(p.packing_fraction_undeformed(), 0.72) << "seed " << seed;
+    }
+}
+
+TEST(Geometric, EqualDiscsMakeALattice) {
+    PackingSpec spec = sizes(7);
+    spec.size_law = SizeLaw::single;
+    const Packing p = made(Generator::geometric, spec, 1).packing;
+    // Six around one: 6 diameters along x or y, sqrt(3) + 1 across.
+    EXPECT_NEAR(p.box.width(), 6.0, 1e-9);
+    spec.count = 2;
+    EXPECT_NEAR(made(Generator::geometric, spec, 1).packing.box.width(), 4.0, 1e-9);
+    spec.count = 1;
+    EXPECT_NEAR(made(Generator::geometric, spec, 1).packing.box.width(), 2.0, 1e-9);
+}
+
+TEST(Geometric, LeavesThePackingFractionAndPeriodsToOthers) {
+    EXPECT_EQ(error_of(Generator::geometric, sizes(10), true),
+              "packing.generator = \"geometric\" needs walls: use \"growth\" in a periodic cell");
+    EXPECT_EQ(
+        error_of(Generator::geometric, sizes(10, 0.5)),
+        "packing.packing_fraction has no effect with generator = \"geometric\", what comes of it is not "
+        "controlled: remove it");
 }
 
 TEST(RandomSequential, PlacesAreUniformWhereThereIsRoom) {
