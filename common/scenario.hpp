@@ -35,8 +35,9 @@ struct GrainClass {
 enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_sizes };
 
 /// growth: of the radii from the inside, from random places to jamming; random_sequential: at random places;
-/// compaction: by walls, from the outside; geometric: each disc against two others.
-enum class Generator { growth, random_sequential, compaction, geometric };
+/// compaction: by walls, from the outside; geometric: each disc against two others;
+/// deposition: under gravity.
+enum class Generator { growth, random_sequential, compaction, geometric, deposition };
 
 /// Where the initial discs come from: a file of x,y,r or a generator.
 struct PackingSpec {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/errors.hpp"
+#include "common/packing/deposition.hpp"
 #include "common/packing/geometric.hpp"
 #include "common/packing/jam.hpp"
 #include "common/packing/random_sequential.hpp"
@@ -14,11 +15,12 @@ namespace softgrain {
 std::vector<KeyFault> generator_faults(Generator generator, bool has_packing_fraction, bool periodic) {
     std::vector<KeyFault> faults;
     const std::string_view name = generator_names[static_cast<std::size_t>(generator)];
-    const bool needs_walls = generator == Generator::compaction || generator == Generator::geometric;
+    const bool uncontrolled = generator == Generator::geometric || generator == Generator::deposition;
+    const bool needs_walls = uncontrolled || generator == Generator::compaction;
     if (needs_walls && periodic)
         faults.push_back(
             {"generator", fmt::format("= \"{}\" needs walls: use \"growth\" in a periodic cell", name)});
-    if (generator == Generator::geometric && has_packing_fraction)
+    if (uncontrolled && has_packing_fraction)
         faults.push_back(
             {"packing_fraction", fmt::format("has no effect with generator = \"{}\", what comes of it is not "
                                              "controlled: remove it",
@@ -41,6 +43,8 @@ Packing generate(Generator generator, const std::vector<double>& radii, const Pa
             return compact(radii, request, random).packing;
         case Generator::geometric:
             return geometric(radii, request);
+        case Generator::deposition:
+            return deposition(radii, request, random);
         case Generator::growth:
             break;
     }

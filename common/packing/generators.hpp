@@ -13,8 +13,8 @@
 namespace softgrain {
 
 /// In the order of the enumeration.
-inline constexpr std::array<std::string_view, 4> generator_names{"growth", "random_sequential", "compaction",
-                                                                 "geometric"};
+inline constexpr std::array<std::string_view, 5> generator_names{"growth", "random_sequential", "compaction",
+                                                                 "geometric", "deposition"};
 
 /// Contradictions between the key packing.generator and packing.packing_fraction or box.periodic, each for
 /// the key (of [packing]) at which it is to be reported.

@@ -69,7 +69,7 @@ OverlapEnergy::State OverlapEnergy::compute_forces() {
     for (std::size_t i = 0; i < center_.size(); ++i) {
         const Vec2& c = center_[i];
         const double r = radius_[i];
-        Vec2 force = Vec2::Zero();
+        Vec2 force{0.0, -gravity_ * r * r};
         const auto against_wall = [&](double distance, int axis, double sign) {
             const double overlap = r - distance;
             if (overlap <= 0.0) return;

@@ -114,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
     Generators, EveryGenerator,
     testing::Values(Case{Generator::growth, {}, false}, Case{Generator::growth, 0.7, true},
                     Case{Generator::compaction, {}, false}, Case{Generator::compaction, 0.5, false},
-                    Case{Generator::geometric, {}, false}, Case{Generator::random_sequential, 0.4, false},
+                    Case{Generator::geometric, {}, false}, Case{Generator::deposition, {}, false},
+                    Case{Generator::random_sequential, 0.4, false},
                     Case{Generator::random_sequential, 0.4, true}));
 
 TEST(Compaction, JamsFrictionlessDiscsIsostatically) {
@@ -187,6 +188,53 @@ TEST(Geometric, LeavesThePackingFractionAndPeriodsToOthers) {
         error_of(Generator::geometric, sizes(10, 0.5)),
         "packing.packing_fraction has no effect with generator = \"geometric\", what comes of it is not "
         "controlled: remove it");
+}
+
+TEST(Deposition, EveryDiscIsHeldAgainstGravity) {
+    constexpr double near = 1e-4;  // the box was opened by 1e-5
+    for (const std::uint64_t seed : {1U, 2U}) {
+        const Packing p = made(Generator::deposition, sizes(120), seed).packing;
+        int held = 0;
+        double highest = 0.0, rightmost = 0.0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Vec2& c = p.center[i];
+            const double reach = p.radius[i] + near;
+            highest = std::max(highest, c.y() + p.radius[i]);
+            rightmost = std::max(rightmost, c.x() + p.radius[i]);
+            const bool on_floor = c.y() < reach;
+            bool below = on_floor, left = on_floor || c.x() < reach,
+                 right = on_floor || p.box.width() - c.x() < reach;
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                const Vec2 to_j = p.center[j] - c;
+                if (i == j || to_j.norm() > p.radius[j] + reach) continue;
+                below = below || to_j.y() < 0.0;
+                (to_j.x() < 0.0 ? left : right) = true;
+            }
+            held += below && left && right ? 1 : 0;
+        }
+        EXPECT_EQ(held, 120) << "seed " << seed;
+        EXPECT_LT(p.box.height() - highest, 2.5 * p.mean_radius());
+        EXPECT_LT(p.box.width() - rightmost, near);
+        EXPECT_GT(p.packing_fraction_undeformed(), 0.7);
+    }
+}
+
+TEST(Deposition, AFewDiscs) {
+    PackingSpec spec = sizes(1);
+    spec.size_law = SizeLaw::single;
+    const Packing one = made(Generator::deposition, spec, 1).packing;
+    EXPECT_NEAR(one.center[0].y(), 1.0, 1e-3);
+    spec.count = 2;
+    const Packing two = made(Generator::deposition, spec, 1).packing;
+    EXPECT_NEAR(std::min(two.center[0].y(), two.center[1].y()), 1.0, 1e-3);
+    EXPECT_NEAR((two.center[0] - two.center[1]).norm(), 2.0, 1e-3);
+}
+
+TEST(Deposition, LeavesThePackingFractionAndPeriodsToOthers) {
+    EXPECT_EQ(error_of(Generator::deposition, sizes(10), true),
+              "packing.generator = \"deposition\" needs walls: use \"growth\" in a periodic cell");
+    EXPECT_TRUE(
+        error_of(Generator::deposition, sizes(10, 0.5)).starts_with("packing.packing_fraction has no"));
 }
 
 TEST(RandomSequential, PlacesAreUniformWhereThereIsRoom) {
