@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/observables/coordination.hpp"
+#include "common/observables/fabric.hpp"
 #include "common/observables/observable.hpp"
 #include "common/observables/stress.hpp"
 
@@ -91,6 +92,11 @@ constexpr std::array table{
     Observable{"unconverged_steps", "", N::base,
                [](const Frame& f) { return f.view.contact_report.unconverged_steps; }},
     Observable{"fragments", "", N::base, [](const Frame& f) { return f.view.fragments; }},
+    Observable{"rattlers", "", N::contacts,
+               [](const Frame& f) { return static_cast<double>(coordination(f.view).rattlers); }},
+    Observable{"fabric_anisotropy", "", N::contacts,
+               [](const Frame& f) { return fabric(f.view).anisotropy; }},
+    Observable{"fabric_angle", "rad", N::contacts, [](const Frame& f) { return fabric(f.view).angle; }},
 };
 
 }  // namespace

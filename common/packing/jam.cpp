@@ -84,35 +84,6 @@ OverlapEnergy::State close_in(OverlapEnergy& discs, Squeeze squeeze) {
     throw InputError("packing: the grains did not come to rest at their jamming point, change random.seed");
 }
 
-/// Removes grains that cannot be held (fewer than 3 contacts) until all are.
-void count_contacts(const std::vector<Pair>& contacts, JammedPacking& result) {
-    const std::size_t n = result.packing.size();
-    std::vector<bool> held(n, true);
-    const auto alive = [&](const Pair& c) {
-        return held[static_cast<std::size_t>(c.i)] && (c.j < 0 || held[static_cast<std::size_t>(c.j)]);
-    };
-    for (bool changed = true; changed;) {
-        std::vector<int> count(n, 0);
-        for (const Pair& c : contacts) {
-            if (!alive(c)) continue;
-            ++count[static_cast<std::size_t>(c.i)];
-            if (c.j >= 0) ++count[static_cast<std::size_t>(c.j)];
-        }
-        changed = false;
-        for (std::size_t i = 0; i < n; ++i)
-            if (held[i] && count[i] < 3) {
-                held[i] = false;
-                changed = true;
-            }
-    }
-    const auto remaining = static_cast<int>(std::count(held.begin(), held.end(), true));
-    const auto between_grains =
-        std::count_if(contacts.begin(), contacts.end(), [&](const Pair& c) { return alive(c) && c.j >= 0; });
-    result.rattlers = static_cast<int>(n) - remaining;
-    result.contacts = static_cast<int>(std::count_if(contacts.begin(), contacts.end(), alive));
-    if (remaining > 0) result.coordination_number = 2.0 * static_cast<double>(between_grains) / remaining;
-}
-
 Packing in_units_of(double length, const OverlapEnergy& discs, const std::vector<double>& radii) {
     Packing packing;
     const Box& box = discs.box();
@@ -156,14 +127,42 @@ JammedPacking brought_together(OverlapEnergy& discs, const std::vector<double>& 
     }
     if (packing_fraction) open_to(discs, limit);
 
-    JammedPacking result;
+    JammedPacking result{carrying_discs(contacts, radii.size()), {}, 0.0};
     result.packing = in_units_of(mean_of(radii), discs, radii);
     result.packing_fraction = result.packing.packing_fraction_undeformed();
-    count_contacts(contacts, result);
     return result;
 }
 
 }  // namespace
+
+CarryingDiscs carrying_discs(const std::vector<Pair>& contacts, std::size_t n) {
+    CarryingDiscs result;
+    std::vector<bool> held(n, true);
+    const auto alive = [&](const Pair& c) {
+        return held[static_cast<std::size_t>(c.i)] && (c.j < 0 || held[static_cast<std::size_t>(c.j)]);
+    };
+    for (bool changed = true; changed;) {
+        std::vector<int> count(n, 0);
+        for (const Pair& c : contacts) {
+            if (!alive(c)) continue;
+            ++count[static_cast<std::size_t>(c.i)];
+            if (c.j >= 0) ++count[static_cast<std::size_t>(c.j)];
+        }
+        changed = false;
+        for (std::size_t i = 0; i < n; ++i)
+            if (held[i] && count[i] < 3) {
+                held[i] = false;
+                changed = true;
+            }
+    }
+    const auto remaining = static_cast<int>(std::count(held.begin(), held.end(), true));
+    const auto between_grains =
+        std::count_if(contacts.begin(), contacts.end(), [&](const Pair& c) { return alive(c) && c.j >= 0; });
+    result.rattlers = static_cast<int>(n) - remaining;
+    result.contacts = static_cast<int>(std::count_if(contacts.begin(), contacts.end(), alive));
+    if (remaining > 0) result.coordination_number = 2.0 * static_cast<double>(between_grains) / remaining;
+    return result;
+}
 
 JammedPacking jam(const std::vector<double>& radii, const PackingRequest& request, Random& random) {
     OverlapEnergy discs =

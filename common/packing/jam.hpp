@@ -2,18 +2,25 @@
 // Frictionless discs between four walls or in a periodic cell, compressed to the point where they jam.
 #include <vector>
 
+#include "common/neighbors.hpp"
 #include "common/packing/packing.hpp"
 #include "common/packing/packing_request.hpp"
 #include "common/packing/random.hpp"
 
 namespace softgrain {
 
-struct JammedPacking {
-    Packing packing;                   ///< no overlaps; box [0, width] x [0, height]
-    double packing_fraction = 0.0;     ///< of the discs
+/// The discs that frictionless contacts can hold.
+struct CarryingDiscs {
     double coordination_number = 0.0;  ///< 2 N_gg / N, without rattlers
     int contacts = 0;                  ///< with grains and walls, without those of rattlers
     int rattlers = 0;                  ///< discs with fewer than 3 contacts, removed repeatedly
+};
+/// `contacts` as OverlapEnergy::contacts, of n discs.
+CarryingDiscs carrying_discs(const std::vector<Pair>& contacts, std::size_t n);
+
+struct JammedPacking : CarryingDiscs {
+    Packing packing;                ///< no overlaps; box [0, width] x [0, height]
+    double packing_fraction = 0.0;  ///< of the discs
 };
 
 /// Largest overlap [mean radius] of the jammed discs before the box is opened until they only touch.
