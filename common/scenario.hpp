@@ -32,11 +32,17 @@ struct GrainClass {
     double aspect_ratio = 1.0;  ///< of undeformed grains: discs or ellipses of the same area, 1 to 3
 };
 
-enum class SizeLaw { gaussian, fractal, uniform_volume, single };
+enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_sizes };
+
+/// growth: of the radii from the inside, from random places to jamming; random_sequential: at random places;
+/// compaction: by walls, from the outside; geometric: each disc against two others;
+/// deposition: under gravity.
+enum class Generator { growth, random_sequential, compaction, geometric, deposition };
 
 /// Where the initial discs come from: a file of x,y,r or a generator.
 struct PackingSpec {
     std::optional<std::filesystem::path> path;  ///< CSV of x,y,r [m]
+    Generator generator = Generator::growth;
     SizeLaw size_law = SizeLaw::gaussian;
     int count = 50;
     double radius_mean = 1.0;       ///< [m] gaussian, single
@@ -44,6 +50,7 @@ struct PackingSpec {
     double radius_min = 0.667;      ///< [m] cut-off
     double radius_max = 1.333;      ///< [m]
     double fractal_dimension = 2.0;
+    double small_share = 0.5;  ///< of the grains by number, two_sizes
     /// Undeformed packing fraction to stop at; without it the packing is brought to its jamming point.
     std::optional<double> packing_fraction;
 };

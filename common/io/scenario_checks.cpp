@@ -4,6 +4,7 @@
 
 #include "common/io/scenario_document.hpp"
 #include "common/io/scenario_schema.hpp"
+#include "common/packing/generators.hpp"
 
 namespace softgrain::scenario_io {
 namespace {
@@ -43,6 +44,14 @@ void check_radii(const CheckedTable& packing, ErrorList& errors) {
                    fmt::format("must be at most {} times radius_min", largest_size_ratio));
 }
 
+void check_generator(const CheckedTable& packing, const CheckedTable& box, ErrorList& errors) {
+    if (!packing.sound({"generator"}) || !box.sound({"periodic"})) return;
+    for (const KeyFault& fault :
+         generator_faults(generator_of(packing.settings), packing.has("packing_fraction"),
+                          box.settings.boolean("periodic")))
+        errors.add(packing.place_of(fault.key), packing.full(fault.key), fault.message);
+}
+
 void check_packing_file(const CheckedTable& packing, const CheckedTable& box,
                         const std::filesystem::path& folder, ErrorList& errors) {
     const Place& place = packing.place_of("path");
@@ -70,6 +79,7 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
         return;
     }
     check_radii(packing, errors);
+    check_generator(packing, box, errors);
     if (box.has("width") != box.has("height")) {
         const bool width = box.has("width");
         errors.add(box.place_of(width ? "width" : "height"), box.full(width ? "width" : "height"),

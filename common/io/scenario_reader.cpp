@@ -46,6 +46,7 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
     const Settings& s = table.settings;
     PackingSpec packing;
     if (s.has("path")) packing.path = packing_file(table, folder);
+    packing.generator = generator_of(s);
     packing.size_law = static_cast<SizeLaw>(position_in(size_law_names, s.text("size_law")));
     packing.count = static_cast<int>(s.integer("count"));
     packing.radius_mean = s.number("radius_mean");
@@ -53,6 +54,7 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
     packing.radius_min = s.number("radius_min");
     packing.radius_max = s.number("radius_max");
     packing.fractal_dimension = s.number("fractal_dimension");
+    packing.small_share = s.number("small_share");
     packing.packing_fraction = optional_number(s, "packing_fraction");
     return packing;
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/packing/generators.hpp"
 #include "common/packing/packing.hpp"
 #include "common/scenario.hpp"
 
@@ -58,8 +60,14 @@ const std::vector<KeySpec> class_keys{
 const std::vector<KeySpec> packing_keys{
     {"path", text, Value(), "",
      "CSV file of x,y,r; from the scenario's folder; needs box.width and box.height"},
-    {"size_law", text, Value(std::string(size_law_names[0])), "", "distribution of the grain radii",
-     any_number, words(size_law_names)},
+    {"generator", text, Value(std::string(generator_names[0])), "",
+     "growth of the radii from the inside, to jamming; compaction by walls from the outside, to jamming; "
+     "random_sequential: the largest first, at random places; geometric: each against two others, from the "
+     "middle outwards",
+     any_number, words(generator_names)},
+    {"size_law", text, Value(std::string(size_law_names[0])), "",
+     "distribution of the grain radii: uniform by number, uniform_volume by area", any_number,
+     words(size_law_names)},
     {"count", integer, Value(std::int64_t{PackingSpec{}.count}), "", "number of grains", Range{1.0, 1e6}},
     {"radius_mean", number, PackingSpec{}.radius_mean, "m",
      "mean of gaussian before the cut; radius of single", positive},
@@ -69,9 +77,13 @@ const std::vector<KeySpec> packing_keys{
     {"radius_max", number, PackingSpec{}.radius_max, "m", "largest radius (all laws but single)", positive},
     {"fractal_dimension", number, PackingSpec{}.fractal_dimension, "", "D of fractal: N(>r) ~ r^-D",
      positive},
+    {"small_share", number, PackingSpec{}.small_share, "",
+     "of two_sizes: grains of radius_min / all grains, by number; the rest are of radius_max", fraction},
     {"packing_fraction", number, Value(), "",
-     "stop at this undeformed packing fraction; without it at the jamming point (of ellipses: of the discs "
-     "around them)",
+     "stop at this undeformed packing fraction; without it growth and compaction stop at the jamming point "
+     "(of ellipses: "
+     "of "
+     "the discs around them)",
      fraction},
 };
 
@@ -181,6 +193,11 @@ const TableSpec& core_table(std::string_view name) {
     for (const TableSpec& table : tables)
         if (table.name == name) return table;
     throw std::logic_error(fmt::format("no scenario table '{}'", name));
+}
+
+Generator generator_of(const Settings& packing) {
+    const auto* name = std::find(generator_names.begin(), generator_names.end(), packing.text("generator"));
+    return static_cast<Generator>(name - generator_names.begin());
 }
 
 std::string describe(const Range& range) {

@@ -5,12 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "common/scenario.hpp"
 #include "common/settings.hpp"
 
 namespace softgrain::scenario_io {
 
-inline constexpr std::array<std::string_view, 4> size_law_names{"gaussian", "fractal", "uniform_volume",
-                                                                "single"};
+inline constexpr std::array<std::string_view, 6> size_law_names{"gaussian", "fractal", "uniform_volume",
+                                                                "single",   "uniform", "two_sizes"};
 /// In the order of LoadingKind.
 inline constexpr std::array<std::string_view, 10> loading_kind_names{
     "isotropic", "oedometric", "hold",   "shear", "gradient",
@@ -28,6 +29,9 @@ struct TableSpec {
 std::span<const TableSpec> core_tables();
 /// Throws std::logic_error if there is none.
 const TableSpec& core_table(std::string_view name);
+
+/// By the key of [packing].
+Generator generator_of(const Settings& packing);
 
 /// "> 0", ">= 0 and <= 0.5", or "" for any number.
 std::string describe(const Range& range);

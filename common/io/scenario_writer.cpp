@@ -6,6 +6,7 @@
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
 #include "common/io/scenario_stages.hpp"
+#include "common/packing/generators.hpp"
 
 namespace softgrain {
 namespace {
@@ -82,6 +83,7 @@ Settings settings_of(const PackingSpec& p) {
         s.set("path", p.path->string());
         return s;
     }
+    s.set("generator", std::string(generator_names[static_cast<std::size_t>(p.generator)]));
     s.set("size_law", std::string(size_law_names[static_cast<std::size_t>(p.size_law)]));
     s.set("count", std::int64_t{p.count});
     s.set("radius_mean", p.radius_mean);
@@ -89,6 +91,7 @@ Settings settings_of(const PackingSpec& p) {
     s.set("radius_min", p.radius_min);
     s.set("radius_max", p.radius_max);
     s.set("fractal_dimension", p.fractal_dimension);
+    s.set("small_share", p.small_share);
     set_optional(s, "packing_fraction", p.packing_fraction);
     return s;
 }

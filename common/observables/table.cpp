@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/observables/coordination.hpp"
+#include "common/observables/fabric.hpp"
 #include "common/observables/observable.hpp"
 #include "common/observables/stress.hpp"
 
@@ -97,6 +98,11 @@ constexpr std::array table{
                [](const Frame& f) { return 1.0 - f.view.box.height() / f.initial_box.height(); }},
     Observable{"volumetric_strain", "", N::base,
                [](const Frame& f) { return 1.0 - f.view.box.area() / f.initial_box.area(); }},
+    Observable{"rattlers", "", N::contacts,
+               [](const Frame& f) { return static_cast<double>(coordination(f.view).rattlers); }},
+    Observable{"fabric_anisotropy", "", N::contacts,
+               [](const Frame& f) { return fabric(f.view).anisotropy; }},
+    Observable{"fabric_angle", "rad", N::contacts, [](const Frame& f) { return fabric(f.view).angle; }},
 };
 
 }  // namespace

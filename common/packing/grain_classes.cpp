@@ -44,8 +44,7 @@ std::vector<std::uint8_t> draw_classes(const Scenario& scenario, std::size_t gra
         classes.insert(classes.end(), number[c], static_cast<std::uint8_t>(c));
     classes.resize(grains);  // rounding of shares cannot give more
     Random random(scenario.seed ^ class_stream);
-    for (std::size_t k = grains; k > 1; --k)  // Fisher and Yates
-        std::swap(classes[k - 1], classes[static_cast<std::size_t>(random.unit() * static_cast<double>(k))]);
+    random.shuffle(classes);
     return classes;
 }
 

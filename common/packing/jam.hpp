@@ -1,29 +1,26 @@
 #pragma once
 // Frictionless discs between four walls or in a periodic cell, compressed to the point where they jam.
-#include <optional>
 #include <vector>
 
+#include "common/neighbors.hpp"
 #include "common/packing/packing.hpp"
+#include "common/packing/packing_request.hpp"
 #include "common/packing/random.hpp"
 
 namespace softgrain {
 
-/// What is to be made, beside the radii.
-struct JamRequest {
-    double aspect_ratio = 1.0;  ///< height / width
-    /// Stop at this packing fraction of the grains, below jamming.
-    std::optional<double> packing_fraction = {};
-    bool periodic = false;
-    double grain_share =
-        1.0;  ///< area of the grains / area of the discs, less than 1 for grains inside discs
-};
-
-struct JammedPacking {
-    Packing packing;                   ///< no overlaps; box [0, width] x [0, height]
-    double packing_fraction = 0.0;     ///< of the discs
+/// The discs that frictionless contacts can hold.
+struct CarryingDiscs {
     double coordination_number = 0.0;  ///< 2 N_gg / N, without rattlers
     int contacts = 0;                  ///< with grains and walls, without those of rattlers
     int rattlers = 0;                  ///< discs with fewer than 3 contacts, removed repeatedly
+};
+/// `contacts` as OverlapEnergy::contacts, of n discs.
+CarryingDiscs carrying_discs(const std::vector<Pair>& contacts, std::size_t n);
+
+struct JammedPacking : CarryingDiscs {
+    Packing packing;                ///< no overlaps; box [0, width] x [0, height]
+    double packing_fraction = 0.0;  ///< of the discs
 };
 
 /// Largest overlap [mean radius] of the jammed discs before the box is opened until they only touch.
@@ -34,6 +31,12 @@ inline constexpr double jamming_tolerance = 5e-7;
 /// `packing_fraction` it is below jamming by not more than a linear strain of jamming_tolerance mean radius /
 /// smallest radius. Throws InputError if it jams before `packing_fraction`, or if a periodic cell is too
 /// small for these discs.
-JammedPacking jam(const std::vector<double>& radii, const JamRequest& request, Random& random);
+/// The box and the centres shrink together: the same as radii that grow in a box that stays.
+JammedPacking jam(const std::vector<double>& radii, const PackingRequest& request, Random& random);
+
+/// The same from the outside: the walls move in on a loose random packing without overlap, past discs that
+/// only they and other discs push. Not for a periodic cell. Throws InputError as well if the box is too
+/// narrow for the loose packing.
+JammedPacking compact(const std::vector<double>& radii, const PackingRequest& request, Random& random);
 
 }  // namespace softgrain

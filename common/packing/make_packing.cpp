@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "common/packing/generators.hpp"
 #include "common/packing/grain_classes.hpp"
-#include "common/packing/jam.hpp"
 #include "common/packing/packing_csv.hpp"
 #include "common/packing/size_laws.hpp"
 
@@ -45,11 +45,12 @@ Packing make_packing(const Scenario& scenario) {
     const std::vector<double> radii = draw_radii(scenario.packing, random);
     const std::vector<std::uint8_t> classes = draw_classes(scenario, radii.size());
     const std::vector<double> elongation = aspect_ratios(scenario, classes, radii.size());
-    const JamRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
-                             .packing_fraction = scenario.packing.packing_fraction,
-                             .periodic = box.periodic,
-                             .grain_share = share_of_discs_around(radii, elongation)};
-    Packing packing = jam(radii_of_discs_around(radii, elongation), request, random).packing;
+    const PackingRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
+                                 .packing_fraction = scenario.packing.packing_fraction,
+                                 .periodic = box.periodic,
+                                 .grain_share = share_of_discs_around(radii, elongation)};
+    Packing packing =
+        generate(scenario.packing.generator, radii_of_discs_around(radii, elongation), request, random);
     packing.radius = radii;
     packing.grain_class = classes;
     packing.aspect_ratio = elongation;

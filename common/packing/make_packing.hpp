@@ -5,9 +5,10 @@
 
 namespace softgrain {
 
-/// Reads packing.path, or draws radii and brings them to rest; the same packing for the same scenario and
-/// seed. Ellipses lie at random angles inside jammed discs. A generated packing is scaled as a whole to
-/// box.width and box.height if they are given, else its radii are those of the size law. Throws InputError.
+/// Reads packing.path, or draws radii and places them by packing.generator; the same packing for the same
+/// scenario and seed. Ellipses lie at random angles inside the discs that are placed. A generated packing is
+/// scaled as a whole to box.width and box.height if they are given, else its radii are those of the size law.
+/// Throws InputError.
 Packing make_packing(const Scenario& scenario);
 
 }  // namespace softgrain

@@ -34,6 +34,14 @@ void OverlapEnergy::scale(double factor) {
     for (Vec2& c : center_) c *= factor;
 }
 
+void OverlapEnergy::move_walls(double factor) {
+    const Vec2 before{box_.width(), box_.height()};
+    box_.position[1] *= factor;
+    box_.position[3] *= factor;
+    const Vec2 inward = 0.5 * (Vec2{box_.width(), box_.height()} - before);
+    for (Vec2& c : center_) c += inward;
+}
+
 void OverlapEnergy::update_neighbors() {
     if (!neighbors_.stale(center_, radius_, box_)) return;
     const double mean =
@@ -61,7 +69,7 @@ OverlapEnergy::State OverlapEnergy::compute_forces() {
     for (std::size_t i = 0; i < center_.size(); ++i) {
         const Vec2& c = center_[i];
         const double r = radius_[i];
-        Vec2 force = Vec2::Zero();
+        Vec2 force{0.0, -gravity_ * r * r};
         const auto against_wall = [&](double distance, int axis, double sign) {
             const double overlap = r - distance;
             if (overlap <= 0.0) return;

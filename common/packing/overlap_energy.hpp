@@ -18,9 +18,13 @@ class OverlapEnergy {
 
     /// Scales the box and all centres about the origin.
     void scale(double factor);
+    /// Scales the box about its middle, past discs that stay where they are; with walls only.
+    void move_walls(double factor);
+    /// Pulls every disc down by `gravity` times its radius squared; 0 at first.
+    void set_gravity(double gravity) { gravity_ = gravity; }
 
     struct State {
-        double energy = 0.0;        ///< sum of overlap^2 / 2
+        double energy = 0.0;        ///< sum of overlap^2 / 2, without gravity
         double virial = 0.0;        ///< -dU/d(ln box size)
         double mean_overlap = 0.0;  ///< over the contacts
         double largest_overlap = 0.0;
@@ -55,6 +59,7 @@ class OverlapEnergy {
     std::vector<double> radius_, mass_;
     std::vector<Vec2> center_, velocity_, force_;
     Box box_;
+    double gravity_ = 0.0;
     NeighborList neighbors_;
 };
 

@@ -41,15 +41,27 @@ double draw(const PackingSpec& spec, Random& random) {
             return fractal(spec, random);
         case SizeLaw::uniform_volume:
             return uniform_volume(spec, random);
+        case SizeLaw::uniform:
+            return random.between(spec.radius_min, spec.radius_max);
+        case SizeLaw::two_sizes:  // not one by one
         case SizeLaw::single:
             break;
     }
     return spec.radius_mean;
 }
 
+std::vector<double> two_sizes(const PackingSpec& s, Random& random) {
+    std::vector<double> radii(static_cast<std::size_t>(s.count), s.radius_max);
+    const auto small = static_cast<std::size_t>(std::lround(s.small_share * s.count));
+    std::fill_n(radii.begin(), small, s.radius_min);
+    random.shuffle(radii);
+    return radii;
+}
+
 }  // namespace
 
 std::vector<double> draw_radii(const PackingSpec& spec, Random& random) {
+    if (spec.size_law == SizeLaw::two_sizes) return two_sizes(spec, random);
     std::vector<double> radii(static_cast<std::size_t>(spec.count));
     std::generate(radii.begin(), radii.end(), [&] { return draw(spec, random); });
     return radii;

@@ -37,11 +37,13 @@ const std::vector<Case> values{
     in("[packing]\ncount = 0", "s.toml:2:9: packing.count must be >= 1 and <= 1000000, got 0"),
     in("[packing]\ncount = 1000001", "s.toml:2:9: packing.count must be >= 1 and <= 1000000, got 1000001"),
     in("[packing]\nsize_law = \"gausian\"",
-       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, got "
+       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, uniform, "
+       "two_sizes, got "
        "\"gausian\" "
        "(did you mean 'gaussian'?)"),
     in("[packing]\nsize_law = \"q\"",
-       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, got \"q\""),
+       "s.toml:2:12: packing.size_law must be one of gaussian, fractal, uniform_volume, single, uniform, "
+       "two_sizes, got \"q\""),
     in("[random]\nseed = -1", "s.toml:2:8: random.seed must be >= 0, got -1"),
     in("title = 3", "s.toml:1:9: title must be a text, got the integer 3"),
     in("[sampling]\noutlines = 1", "s.toml:2:12: sampling.outlines must be true or false, got the integer 1"),
@@ -283,6 +285,9 @@ const std::vector<Case> packings{
        "s.toml:2:15: packing.radius_mean must be at most radius_max = 1.333, got 2"),
     in("[packing]\nradius_max = 0.9",
        "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
+    in("[packing]\ngenerator = \"random_sequential\"",
+       "s.toml:2:13: packing.generator = \"random_sequential\" has no end of its own: give "
+       "packing.packing_fraction"),
     in("[packing]\nsize_law = \"fractal\"\nradius_min = 2.0\nradius_max = 1.0",
        "s.toml:4:14: packing.radius_max must be at least radius_min = 2, got 1"),
     in("[packing]\nsize_law = \"fractal\"\nradius_min = 1e-6\nradius_max = 1.0",

@@ -8,9 +8,14 @@
 #include "common/packing/jam.hpp"
 #include "common/packing/make_packing.hpp"
 #include "common/packing/size_laws.hpp"
+#include "tests/scenario/examined_packing.hpp"
 
 namespace softgrain {
 namespace {
+
+using test::bits;
+using test::count_touching;
+using test::smallest_gap;
 
 JammedPacking jammed(int count, std::uint64_t seed, double aspect_ratio = 1.0, PackingSpec spec = {}) {
     spec.count = count;
@@ -29,30 +34,6 @@ PackingSpec with_law(SizeLaw law) {
     PackingSpec spec;
     spec.size_law = law;
     return spec;
-}
-
-/// Smallest gap of all pairs and walls [m], negative for an overlap.
-double smallest_gap(const Packing& p) {
-    double smallest = INFINITY;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        for (int wall = 0; wall < 4; ++wall)
-            smallest = std::min(smallest, p.box.distance(wall, p.center[i]) - p.radius[i]);
-        for (std::size_t j = i + 1; j < p.size(); ++j)
-            smallest = std::min(smallest, (p.center[i] - p.center[j]).norm() - p.radius[i] - p.radius[j]);
-    }
-    return smallest;
-}
-
-/// Gaps below `reach`, of pairs and walls together.
-int count_touching(const Packing& p, double reach) {
-    int count = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        for (int wall = 0; wall < 4; ++wall)
-            count += p.box.distance(wall, p.center[i]) - p.radius[i] < reach ? 1 : 0;
-        for (std::size_t j = i + 1; j < p.size(); ++j)
-            count += (p.center[i] - p.center[j]).norm() - p.radius[i] - p.radius[j] < reach ? 1 : 0;
-    }
-    return count;
 }
 
 TEST(Jam, FrictionlessDiscsJamIsostatic) {
@@ -117,11 +98,6 @@ TEST(Jam, FractalSizes) {
 }
 
 TEST(Jam, TheSeedDecides) {
-    const auto bits = [](const Packing& p) {
-        std::vector<double> all = p.radius;
-        for (const Vec2& c : p.center) all.insert(all.end(), {c.x(), c.y()});
-        return all;
-    };
     const auto first = bits(jammed(40, 6).packing);
     EXPECT_EQ(first, bits(jammed(40, 6).packing));
     EXPECT_NE(first, bits(jammed(40, 7).packing));

@@ -50,6 +50,7 @@ void expect_same(const Material& a, const Material& b) {
 
 void expect_same(const PackingSpec& a, const PackingSpec& b) {
     EXPECT_EQ(a.path, b.path);
+    EXPECT_EQ(a.generator, b.generator);
     EXPECT_EQ(a.size_law, b.size_law);
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.radius_mean, b.radius_mean);
@@ -57,6 +58,7 @@ void expect_same(const PackingSpec& a, const PackingSpec& b) {
     EXPECT_EQ(a.radius_min, b.radius_min);
     EXPECT_EQ(a.radius_max, b.radius_max);
     EXPECT_EQ(a.fractal_dimension, b.fractal_dimension);
+    EXPECT_EQ(a.small_share, b.small_share);
     EXPECT_EQ(a.packing_fraction, b.packing_fraction);
 }
 
@@ -111,6 +113,7 @@ poisson_ratio = 0.1
 density = 1e-300
 friction = 0.3
 [packing]
+generator = "random_sequential"
 size_law = "fractal"
 count = 77
 radius_mean = 0.012
@@ -118,6 +121,7 @@ radius_deviation = 0.0024
 radius_min = 0.004
 radius_max = 0.038
 fractal_dimension = 1.7
+small_share = 0.25
 packing_fraction = 0.6
 [box]
 width = 2

@@ -102,6 +102,31 @@ TEST(SizeLaws, UniformVolumeHasAUniformArea) {
     EXPECT_NEAR(mean_square, 0.5 * (0.49 + 1.44), 4.0 * 0.95 / std::sqrt(12.0 * draws));
 }
 
+TEST(SizeLaws, UniformIsUniformInTheRadius) {
+    const PackingSpec s = between(SizeLaw::uniform, 0.7, 1.2);
+    const auto radii = sorted_radii(s);
+    EXPECT_GE(radii.front(), 0.7);
+    EXPECT_LE(radii.back(), 1.2);
+    EXPECT_LT(distance(radii, [](double r) { return (r - 0.7) / 0.5; }), band);
+    EXPECT_GT(distance(radii, [](double r) { return (r * r - 0.49) / (1.44 - 0.49); }), band)
+        << "the law of uniform_volume";
+}
+
+TEST(SizeLaws, TwoSizesHaveTheirShareByNumber) {
+    PackingSpec s = between(SizeLaw::two_sizes, 0.5, 0.7);
+    s.small_share = 0.30004;
+    const auto radii = sorted_radii(s);
+    EXPECT_EQ(std::count(radii.begin(), radii.end(), 0.5), 6001);
+    EXPECT_EQ(std::count(radii.begin(), radii.end(), 0.7), draws - 6001);
+
+    // In random order: the small ones among the first half are hypergeometric, 3000 +- 46.
+    s.count = draws;
+    Random random(1);
+    const auto drawn = draw_radii(s, random);
+    EXPECT_NEAR(static_cast<double>(std::count(drawn.begin(), drawn.begin() + draws / 2, 0.5)), 3000.0,
+                140.0);
+}
+
 TEST(SizeLaws, SingleIsTheMean) {
     PackingSpec single = between(SizeLaw::single, 0.1, 0.2);
     single.radius_mean = 0.3;

@@ -1,0 +1,26 @@
+#include "common/observables/fabric.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace softgrain {
+
+Fabric fabric_of(const Mat2& tensor) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (tensor.isZero(0.0)) return {tensor, none, none};
+    const double difference = tensor(0, 0) - tensor(1, 1), shear = tensor(0, 1) + tensor(1, 0);
+    return {tensor, 2.0 * std::hypot(difference, shear), 0.5 * std::atan2(shear, difference)};
+}
+
+Fabric fabric(const GrainView& view) {
+    Mat2 sum = Mat2::Zero();
+    double contacts = 0.0;
+    for (const GrainContact& c : view.contacts) {
+        if (c.with_wall()) continue;
+        sum += c.normal * c.normal.transpose();
+        contacts += 1.0;
+    }
+    return fabric_of(contacts > 0.0 ? Mat2(sum / contacts) : sum);
+}
+
+}  // namespace softgrain
