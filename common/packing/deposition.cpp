@@ -15,7 +15,8 @@ namespace {
 
 // Lengths are in mean radii.
 constexpr double gas_fraction = 0.4;      // before the fall
-constexpr double first_guess = 0.78;      // packing fraction after it
+constexpr double guess_inside = 0.83;     // packing fraction after it, without walls and lid
+constexpr double guess_at_walls = 1.1;    // what they take from it, times sqrt(number of discs)
 constexpr int most_falls = 6;             // until the width is right
 constexpr double narrowest = 1.0 + 1e-3;  // width / largest diameter
 constexpr double weight = 1e-5;           // of a column of discs: about the overlap at the bottom
@@ -145,7 +146,9 @@ Packing deposition(const std::vector<double>& radii, const PackingRequest& reque
     for (double& r : in_means) r /= mean;
     const double least_width = 2.0 * narrowest * *std::max_element(in_means.begin(), in_means.end());
 
-    double width = std::max(least_width, request.box_for(in_means, first_guess).width());
+    const double guess =
+        std::max(0.5, guess_inside - guess_at_walls / std::sqrt(static_cast<double>(radii.size())));
+    double width = std::max(least_width, request.box_for(in_means, guess).width());
     Packing packing{.box = {}, .center = {}, .radius = radii, .frame = {}};
     double least_space = INFINITY;
     for (int k = 0; k < most_falls && least_space > 2.0; ++k) {
