@@ -12,6 +12,7 @@
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/history_csv.hpp"
+#include "common/io/measure_files.hpp"
 #include "common/io/run_file.hpp"
 #include "common/time_loop.hpp"
 #include "version.hpp"
@@ -106,6 +107,7 @@ RunReport run_into_folder(const RunRequest& request) {
         std::filesystem::remove(request.folder / "run.json");
         for (const char* not_always_written : {"contacts.pvd", "parts.pvd", "part_contacts.pvd"})
             std::filesystem::remove(request.folder / not_always_written);
+        std::filesystem::remove_all(request.folder / "measures");
         write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 
@@ -119,6 +121,9 @@ RunReport run_into_folder(const RunRequest& request) {
     std::vector<Observer*> observers{&history, &grains, &walls};
     if (scenario.sampling.contacts) observers.push_back(&contacts);
     if (scenario.sampling.parts) observers.push_back(&parts);
+    std::optional<MeasureWriter> measures;
+    if (!scenario.sampling.measures.empty())
+        observers.push_back(&measures.emplace(request.folder, scenario.sampling.measures));
 
     TimeLoop run(scenario, request.packing, *solver, observers);
     if (earlier) run.resume(file.state);

@@ -134,6 +134,7 @@ struct Sampling {
     bool outlines = true;
     bool contacts = true;
     bool parts = false;  ///< what grains are made of, of the methods that have such parts
+    std::vector<std::string> measures = {};  ///< written at every frame, see MeasureWriter
 };
 
 struct Scenario {

@@ -24,6 +24,7 @@ constexpr double still_free = 1e-6;                     // overlap of discs that
 constexpr double balance = 1e-3;                        // net force / mean overlap of discs that do
 constexpr double weakest = 1e-2;                        // overlap / mean overlap of a contact that carries
 constexpr int most_steps = 100'000;
+constexpr double fewest = 0.1;  // pairs per grain that have a fabric
 
 struct Options {
     int grains = 1000;
@@ -63,8 +64,8 @@ Near near_pairs(const std::vector<Vec2>& center, const std::vector<double>& radi
         result.fabric += normal * normal.transpose();
     }
     const auto pairs = static_cast<double>(list.pairs().size());
-    if (pairs > 0.0) result.fabric /= pairs;
     result.per_grain = 2.0 * pairs / static_cast<double>(center.size());
+    result.fabric = result.per_grain < fewest ? Mat2(Mat2::Zero()) : Mat2(result.fabric / pairs);
     return result;
 }
 

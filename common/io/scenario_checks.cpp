@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "common/io/measure_files.hpp"
 #include "common/io/scenario_document.hpp"
 #include "common/io/scenario_schema.hpp"
 #include "common/packing/generators.hpp"
@@ -89,6 +92,20 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
         if (aspect > largest_aspect_ratio || aspect < 1.0 / largest_aspect_ratio)
             errors.add(box.place_of("height"), box.full("height"),
                        fmt::format("must be within a factor of {} of box.width", largest_aspect_ratio));
+    }
+}
+
+void check_sampling(const CheckedTable& sampling, ErrorList& errors) {
+    if (!sampling.sound({"measures"})) return;
+    const std::vector<std::string> names = measures_in(sampling.settings.text("measures"));
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        const bool known =
+            std::find(measure_names.begin(), measure_names.end(), *name) != measure_names.end();
+        if (known && std::find(names.begin(), name, *name) == name) continue;
+        errors.add(sampling.place_of("measures"), sampling.full("measures"),
+                   known ? fmt::format("names '{}' twice", *name)
+                         : fmt::format("names '{}', known are {}", *name, join(measure_names)));
+        return;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/errors.hpp"
+#include "common/io/measure_files.hpp"
 #include "common/io/scenario_checks.hpp"
 #include "common/io/scenario_document.hpp"
 #include "common/io/scenario_file.hpp"
@@ -60,9 +61,13 @@ PackingSpec packing_of(const CheckedTable& table, const std::filesystem::path& f
 }
 
 Sampling sampling_of(const Settings& s) {
-    return {
-        s.number("strain_interval"), s.number("average_window"), static_cast<int>(s.integer("frame_every")),
-        s.boolean("outlines"),       s.boolean("contacts"),      s.boolean("parts")};
+    return {s.number("strain_interval"),
+            s.number("average_window"),
+            static_cast<int>(s.integer("frame_every")),
+            s.boolean("outlines"),
+            s.boolean("contacts"),
+            s.boolean("parts"),
+            measures_in(s.text("measures"))};
 }
 
 /// Reads one document: checks every table, remembers every error.
@@ -93,7 +98,9 @@ class Reader {
         scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height"),
                         box.settings.boolean("periodic")};
         scenario.loading = stages(box);
-        scenario.sampling = sampling_of(table("sampling").settings);
+        const CheckedTable sampling = table("sampling");
+        check_sampling(sampling, errors_);
+        scenario.sampling = sampling_of(sampling.settings);
         for (const MethodKeys& method : methods_)
             scenario.method_settings.emplace(method.name, method_settings(method));
         return scenario;

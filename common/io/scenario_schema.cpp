@@ -167,6 +167,11 @@ const std::vector<KeySpec> sampling_keys{
     {"contacts", boolean, Value(Sampling{}.contacts), "", "write contacts, of grains and of parts"},
     {"parts", boolean, Value(Sampling{}.parts), "",
      "write what grains are made of, such as the discs of bpm; a method without parts writes nothing more"},
+    {"measures", text, Value(std::string()), "",
+     "written at every frame as measures/<name>_<frame>.csv: names out of forces (their distribution), "
+     "chains "
+     "(stress of grains and force chains), pair_correlation, tessellation (void ratio and strain since the "
+     "last frame in triangles between centres), parted by commas"},
 };
 
 const std::array<TableSpec, 8> tables{{

@@ -104,6 +104,7 @@ Settings settings_of(const Sampling& sampling) {
     s.set("outlines", sampling.outlines);
     s.set("contacts", sampling.contacts);
     s.set("parts", sampling.parts);
+    s.set("measures", fmt::format("{}", fmt::join(sampling.measures, ", ")));
     return s;
 }
 

@@ -3,6 +3,7 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -15,11 +16,13 @@ namespace {
 
 // Lengths are in mean radii.
 constexpr double gas_fraction = 0.4;      // before the fall
-constexpr double first_guess = 0.78;      // packing fraction after it
+constexpr double guess_inside = 0.83;     // packing fraction after it, without walls and lid
+constexpr double guess_at_walls = 1.1;    // what they take from it, times sqrt(number of discs)
 constexpr int most_falls = 6;             // until the width is right
 constexpr double narrowest = 1.0 + 1e-3;  // width / largest diameter
-constexpr double weight = 1e-5;           // of a column of discs: about the overlap at the bottom
-constexpr double balance = 1e-3;          // net force / mean overlap
+// Of a column of discs, about the overlap at the bottom: what is heavy settles fast.
+constexpr std::array weights{1e-3, 1e-4, 1e-5};
+constexpr double balance = 1e-3;  // net force / mean overlap
 constexpr double never_clear = -1.0;
 constexpr int most_relaxing_steps = 500'000;
 
@@ -31,8 +34,8 @@ constexpr float gravity = 100.0F;
 constexpr float air = 1.0F;  // linear damping: no disc falls faster than gravity / air, 1.7 units in a step
 constexpr float time_step = 1.0F / 60.0F;
 constexpr int velocity_iterations = 20, position_iterations = 10;
-constexpr float at_rest = 0.1F;  // mean speed: falling freely discs have it after 1/16 of a step
-constexpr int steps_at_rest = 60;
+constexpr float at_rest = 1.0F;  // mean speed: less than discs gain in a step of free fall
+constexpr int steps_at_rest = 30;
 constexpr int most_steps = 20'000;
 
 float single(double value) {
@@ -129,10 +132,12 @@ OverlapEnergy fallen(const std::vector<double>& radii, double width, Random& ran
     if (!fall.settle())
         throw InputError("packing: the falling grains did not come to rest, change random.seed");
     OverlapEnergy discs(radii, fall.centers(), gas.box);
-    discs.set_gravity(weight / top_of(discs));
-    const auto state = discs.relax(balance, never_clear, most_relaxing_steps);
-    if (state.largest_force > balance * state.mean_overlap)
-        throw InputError("packing: the fallen grains did not come to rest, change random.seed");
+    for (const double weight : weights) {
+        discs.set_gravity(weight / top_of(discs));
+        const auto state = discs.relax(balance, never_clear, most_relaxing_steps);
+        if (state.largest_force > balance * state.mean_overlap)
+            throw InputError("packing: the fallen grains did not come to rest, change random.seed");
+    }
     discs.scale(1.0 + discs.opening());
     return discs;
 }
@@ -145,7 +150,9 @@ Packing deposition(const std::vector<double>& radii, const PackingRequest& reque
     for (double& r : in_means) r /= mean;
     const double least_width = 2.0 * narrowest * *std::max_element(in_means.begin(), in_means.end());
 
-    double width = std::max(least_width, request.box_for(in_means, first_guess).width());
+    const double guess =
+        std::max(0.5, guess_inside - guess_at_walls / std::sqrt(static_cast<double>(radii.size())));
+    double width = std::max(least_width, request.box_for(in_means, guess).width());
     Packing packing{.box = {}, .center = {}, .radius = radii, .frame = {}};
     double least_space = INFINITY;
     for (int k = 0; k < most_falls && least_space > 2.0; ++k) {

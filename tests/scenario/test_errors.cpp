@@ -285,6 +285,11 @@ const std::vector<Case> packings{
        "s.toml:2:15: packing.radius_mean must be at most radius_max = 1.333, got 2"),
     in("[packing]\nradius_max = 0.9",
        "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
+    in("[sampling]\nmeasures = \"forces, fabric\"",
+       "s.toml:2:12: sampling.measures names 'fabric', known are forces, chains, pair_correlation, "
+       "tessellation"),
+    in("[sampling]\nmeasures = \"chains, forces,chains\"",
+       "s.toml:2:12: sampling.measures names 'chains' twice"),
     in("[packing]\ngenerator = \"random_sequential\"",
        "s.toml:2:13: packing.generator = \"random_sequential\" has no end of its own: give "
        "packing.packing_fraction"),

@@ -85,6 +85,7 @@ void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.sampling.outlines, b.sampling.outlines);
     EXPECT_EQ(a.sampling.contacts, b.sampling.contacts);
     EXPECT_EQ(a.sampling.parts, b.sampling.parts);
+    EXPECT_EQ(a.sampling.measures, b.sampling.measures);
     ASSERT_EQ(a.method_settings.size(), b.method_settings.size());
     for (const auto& [name, settings] : a.method_settings)
         EXPECT_EQ(settings.values(), b.method_settings.at(name).values()) << name;
@@ -146,6 +147,7 @@ frame_every = 3
 outlines = false
 contacts = false
 parts = true
+measures = "chains,  tessellation"
 [spring]
 law = "hertz"
 damping = 0
