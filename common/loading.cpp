@@ -124,8 +124,8 @@ double StageDriver::rate(double pressure) const {
     if (stage_.strain_rate) return *stage_.strain_rate;
     double floor = pressure_floor * grains_.stress_scale;
     if (plan_.has_servo()) {
-        const double x = plan_.target[0].value_or(*plan_.target[1]);  // one of them at least is there
-        floor = 0.5 * (x + plan_.target[1].value_or(x));
+        const auto& [x, y] = plan_.target;
+        floor = x && y ? 0.5 * (*x + *y) : x ? *x : *y;
     }
     const double p = std::max(pressure, floor);
     return *stage_.inertial_number / (grains_.mean_diameter * std::sqrt(grains_.density / p));
