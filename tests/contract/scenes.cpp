@@ -13,7 +13,7 @@ const std::vector<Bands>& all_bands() {
         // seen between images); stick-slip never quite comes to rest; pores between the bumps of two grains
         // that touch count as covered.
         {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0, 0.07, 2e-3, 25.0},
-        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 1e-3, 350.0, 1e-8},
+        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 5e-4, 700.0, 1e-8},
     };
     return table;
 }
