@@ -117,8 +117,9 @@ std::string name_of(const Row& row) {
     return row.asked ? fmt::format("{} to {}", name, *row.asked) : std::string(name);
 }
 
+/// nan if there were too few pairs.
 double anisotropy(const Mat2& fabric) {
-    return fabric_of(fabric).anisotropy;
+    return fabric.isZero(0.0) ? std::nan("") : fabric_of(fabric).anisotropy;
 }
 
 std::string csv_line(const Row& row, int seed, const Options& options, const Result& r) {

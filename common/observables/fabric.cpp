@@ -1,13 +1,10 @@
 #include "common/observables/fabric.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace softgrain {
 
 Fabric fabric_of(const Mat2& tensor) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (tensor.isZero(0.0)) return {tensor, none, none};
     const double difference = tensor(0, 0) - tensor(1, 1), shear = tensor(0, 1) + tensor(1, 0);
     return {tensor, 2.0 * std::hypot(difference, shear), 0.5 * std::atan2(shear, difference)};
 }

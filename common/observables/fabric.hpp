@@ -12,7 +12,7 @@ struct Fabric {
     double angle = 0.0;          ///< of the direction with most contacts, -pi/2 to pi/2 [rad]
 };
 
-/// From the mean of n (x) n; nan for a zero tensor.
+/// From the mean of n (x) n; anisotropy and angle are 0 for a zero tensor.
 Fabric fabric_of(const Mat2& tensor);
 
 /// Of the contacts between grains.
