@@ -133,7 +133,7 @@ struct Sampling {
     int frame_every = 5;  ///< a VTK frame at every n-th sample
     bool outlines = true;
     bool contacts = true;
-    bool parts = false;  ///< what grains are made of, of the methods that have such parts
+    bool parts = false;                      ///< what grains are made of, of the methods that have such parts
     std::vector<std::string> measures = {};  ///< written at every frame, see MeasureWriter
 };
 
