@@ -46,8 +46,8 @@ bool RigidDem::list_is_stale() {
     double room = 0.5 * skin_ * (1.0 - loss) - loss * largest_radius_;
     if (!box_.periodic)
         for (std::size_t w = 0; w < 4; ++w)
-            room = std::min(
-                room, skin_ - std::abs(box_.position[w] - neighbors_.built_cell().position[w]) - 0.5 * skin_);
+            room = std::min(room,
+                            0.5 * skin_ - std::abs(box_.position[w] - neighbors_.built_cell().position[w]));
     if (!(room > 0.0)) return true;
     if (stretch_margin * travelled_ < room) return false;
     const double* const before = neighbors_.built_at().data()->data();

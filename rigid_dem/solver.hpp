@@ -31,7 +31,7 @@ class RigidDem final : public Solver {
 
     /// For set-ups that start in motion [n], half a step back.
     void set_velocity(std::span<const Vec2> velocity, std::span<const double> spin);
-    /// [n] after the last view of all fields [1/s].
+    /// [n] [1/s].
     std::span<const double> spin();
     /// Neighbour lists made so far.
     int listings() const { return listings_; }

@@ -10,6 +10,8 @@
 namespace softgrain::rigid_dem {
 namespace {
 
+constexpr double least_overlap = 1e-3;  ///< of the radius
+
 /// Bound on omega^2 of a disc with A = sum k_n n n', for one ratio k_t / k_n.
 class FrequencyBound {
   public:
@@ -75,7 +77,7 @@ void RigidDem::find_frequency() {
 }
 
 /// Of a contact that the grain may have before the next look [N/m]; of Hertz's law after an impact as fast as
-/// two of the fastest grains meet.
+/// two of the fastest grains meet, or at least_overlap: without any contact there is no stiffness.
 double RigidDem::stiffness_soon(std::size_t grain) const {
     const GrainElasticity own = elasticity_of(grain);
     if (!law_.hertz) {
@@ -84,8 +86,8 @@ double RigidDem::stiffness_soon(std::size_t grain) const {
         return in_series(law_.stiffness * own.modulus, law_.stiffness * largest);
     }
     const double k = stiffness_at_wall(law_, own).k;
-    const double overlap = std::pow(1.25 * mass_[grain] * 4.0 * fastest2_ / k, 0.4);
-    return Hertz::stiffness(k, overlap);
+    const double impact = std::pow(1.25 * mass_[grain] * 4.0 * fastest2_ / k, 0.4);
+    return Hertz::stiffness(k, std::max(impact, least_overlap * own.radius));
 }
 
 /// A of a block's grains and copies: xx, xy, yy as fx, fy, shear.

@@ -64,7 +64,9 @@ double peak_memory() {  // [bytes]
 }
 
 int run(const Options& o) {
-    const Packing packing = tiled(packed_cell(o.grains, 1), o.tiles);
+    Packing packing = tiled(packed_cell(o.grains, 1), o.tiles);
+    // LAMMPS finds the forces of a step before it moves its cell: one step behind.
+    packing.box.tilt = -o.shear_rate * packing.box.height() * dt;
     std::vector<Vec2> velocity = agitation(packing.size(), o.speed, 2);
     if (!o.lammps.empty()) {
         for (std::size_t i = 0; i < packing.size(); ++i)  // we start with the flow of the cell by ourselves
