@@ -69,6 +69,7 @@ class RigidDem final : public Solver {
     void find_frequency();
     void add_stiffness(std::size_t block, std::vector<ForceSum>& stiffness) const;
     double stiffness_soon(std::size_t grain) const;
+    double tangent_stiffness(double k, double overlap) const;
 
     // periodic cell
     Flow flow_of(const WallMotion& walls) const;

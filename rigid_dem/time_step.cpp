@@ -23,7 +23,8 @@ class FrequencyBound {
     }
 
     double operator()(double xx, double xy, double yy, double inverse_mass) const {
-        const double trace = xx + yy, half = std::hypot(0.5 * (xx - yy), xy);
+        const double trace = xx + yy, skew = 0.5 * (xx - yy);
+        const double half = std::sqrt(skew * skew + xy * xy);
         const double high = 0.5 * trace + half, low = 0.5 * trace - half;
         const double q = (1.0 + c_) * shear_ratio_;
         const double translation = q <= 1.0 ? high + q * low : low + q * high;
@@ -76,6 +77,10 @@ void RigidDem::find_frequency() {
     frequency2_ = *std::max_element(largest.begin(), largest.end());
 }
 
+double RigidDem::tangent_stiffness(double k, double overlap) const {
+    return law_.hertz ? Hertz::stiffness(k, overlap) : Linear::stiffness(k, overlap);
+}
+
 /// Of a contact that the grain may have before the next look [N/m]; of Hertz's law after an impact as fast as
 /// two of the fastest grains meet, or at least_overlap: without any contact there is no stiffness.
 double RigidDem::stiffness_soon(std::size_t grain) const {
@@ -93,28 +98,26 @@ double RigidDem::stiffness_soon(std::size_t grain) const {
 /// A of a block's grains and copies: xx, xy, yy as fx, fy, shear.
 void RigidDem::add_stiffness(std::size_t b, std::vector<ForceSum>& stiffness) const {
     const Block& block = blocks_[b];
-    const auto add = [&](std::size_t record, double k, const Vec2& n) {
-        stiffness[record].fx += k * n.x() * n.x();
-        stiffness[record].fy += k * n.x() * n.y();
-        stiffness[record].shear += k * n.y() * n.y();
-    };
-    const auto tangent = [&](double k, double overlap) {
-        return law_.hertz ? Hertz::stiffness(k, overlap) : Linear::stiffness(k, overlap);
+    const auto add = [&](std::size_t record, double k, double nx, double ny) {
+        stiffness[record].fx += k * nx * nx;
+        stiffness[record].fy += k * nx * ny;
+        stiffness[record].shear += k * ny * ny;
     };
     for (std::size_t p = 0; p < block.pairs.size(); ++p) {
-        const double into = overlap(block, p);
-        if (into <= 0.0 && (block.bond.empty() || block.bond[p] == 0.0)) continue;
         const std::size_t i = block.pairs[p].i, j = block.pairs[p].j;
         const GrainRecord &a = record(block, i), &c = record(block, j);
-        const Vec2 n = Vec2{c.x - a.x, c.y - a.y}.normalized();
-        const double k = tangent(block.k[uniform_ ? 0 : p], into);
-        add(block.first_record + i, k, n);
-        add(block.first_record + j, k, n);
+        const double dx = c.x - a.x, dy = c.y - a.y, distance2 = dx * dx + dy * dy;
+        const double reach = a.radius + c.radius;
+        if (distance2 >= reach * reach && (block.bond.empty() || block.bond[p] == 0.0)) continue;
+        const double k = tangent_stiffness(block.k[uniform_ ? 0 : p], reach - std::sqrt(distance2));
+        add(block.first_record + i, k / distance2, dx, dy);
+        add(block.first_record + j, k / distance2, dx, dy);
     }
     for (const WallContact& contact : wall_contacts_[b]) {
         const double into = wall_overlap(record_[contact.record], contact.wall, box_);
-        if (into > 0.0)
-            add(contact.record, 0.5 * tangent(contact.stiffness.k, into), wall_normal(contact.wall));
+        if (into <= 0.0) continue;
+        const Vec2 n = wall_normal(contact.wall);
+        add(contact.record, 0.5 * tangent_stiffness(contact.stiffness.k, into), n.x(), n.y());
     }
 }
 
