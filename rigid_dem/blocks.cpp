@@ -38,10 +38,7 @@ void list_pairs(Block& block, const NeighborList& neighbors, std::size_t first, 
     for (std::size_t o = 0; o < outside.size(); ++o) {
         if (o == 0 || outside[o].key() != outside[o - 1].key())
             block.halo.push_back({static_cast<std::uint32_t>(outside[o].partner), outside[o].image});
-        const std::size_t place = block.grains + block.halo.size() - 1;
-        if (place > std::numeric_limits<std::uint16_t>::max())
-            throw InputError("a grain has more than 60000 neighbours: take sizes that differ less");
-        block.pairs[outside[o].pair].j = static_cast<std::uint16_t>(place);
+        block.pairs[outside[o].pair].j = static_cast<std::uint16_t>(block.grains + block.halo.size() - 1);
     }
 }
 
@@ -64,6 +61,8 @@ std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t gr
     }
     std::size_t record = 0;
     for (Block& block : blocks) {
+        if (block.grains + block.halo.size() > std::size_t{1} + std::numeric_limits<std::uint16_t>::max())
+            throw InputError("a grain has more than 60000 neighbours: take sizes that differ less");
         block.first_record = record;
         record += block.grains + block.halo.size();
     }

@@ -155,12 +155,8 @@ void RigidDem::list_again() {
     steps_listed_ = 0;
     list_neighbors(std::move(x));
     set_motion(motion);
-    for (Block& block : blocks_) copy_memory(book, block);
-    for (std::size_t b = 0; b < wall_contacts_.size(); ++b)
-        for (WallContact& contact : wall_contacts_[b]) {
-            const auto old = book.at_walls.find({grain_of(blocks_[b], contact), contact.wall});
-            if (old != book.at_walls.end()) contact.memory = old->second;
-        }
+#pragma omp parallel for schedule(static) if (threads())
+    for (std::size_t b = 0; b < blocks_.size(); ++b) copy_memory(book, b);
 }
 
 /// A new spatial order, by places in the present one.
@@ -200,16 +196,21 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
     neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
     force_.assign(record_.size(), {});
-    for (const Block& block : blocks_)
-        for (std::size_t g = 0; g < block.grains; ++g) {
-            const std::uint32_t grain = order_[block.first_grain + g];
-            const Vec2& at = neighbors_.built_at()[block.first_grain + g];
-            record_[block.first_record + g] = {
-                .x = at.x(), .y = at.y(), .radius = radius_[grain], .inverse_mass = 1.0 / mass_[grain]};
-        }
-    for (Block& block : blocks_) prepare_pairs(block);
     wall_contacts_.resize(blocks_.size());
-    for (std::size_t b = 0; b < blocks_.size() && !box_.periodic; ++b) list_walls(b);
+#pragma omp parallel for schedule(static) if (threads())
+    for (std::size_t b = 0; b < blocks_.size(); ++b) fill_block(b);
+}
+
+void RigidDem::fill_block(std::size_t b) {
+    Block& block = blocks_[b];
+    for (std::size_t g = 0; g < block.grains; ++g) {
+        const std::uint32_t grain = order_[block.first_grain + g];
+        const Vec2& at = neighbors_.built_at()[block.first_grain + g];
+        record_[block.first_record + g] = {
+            .x = at.x(), .y = at.y(), .radius = radius_[grain], .inverse_mass = 1.0 / mass_[grain]};
+    }
+    prepare_pairs(block);
+    if (!box_.periodic) list_walls(b);
 }
 
 /// Grains that may touch a wall before the next list.
@@ -256,7 +257,12 @@ void RigidDem::prepare_pairs(Block& block) const {
     prepare(block.bond, law_.features & has_adhesion);
 }
 
-void RigidDem::copy_memory(const ContactBook& book, Block& block) const {
+void RigidDem::copy_memory(const ContactBook& book, std::size_t b) {
+    Block& block = blocks_[b];
+    for (WallContact& contact : wall_contacts_[b]) {
+        const auto old = book.at_walls.find({grain_of(block, contact), contact.wall});
+        if (old != book.at_walls.end()) contact.memory = old->second;
+    }
     if (book.values == 0) return;
     each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
         const auto first = book.partner.begin() + book.start[std::min(i, j)],

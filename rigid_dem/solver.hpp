@@ -39,6 +39,7 @@ class RigidDem final : public Solver {
   private:
     struct BlockTotals;
     struct ContactBook;
+    struct StiffnessSum;
 
     // one step
     void move(const WallMotion& walls, double dt);
@@ -57,17 +58,18 @@ class RigidDem final : public Solver {
     std::vector<int> places_in_space() const;
     double sorting_cell() const;
     void prepare_pairs(Block& block) const;
+    void fill_block(std::size_t block);
     void list_walls(std::size_t block);
     ContactBook open_book() const;
     bool forgets(const Block& block, std::size_t pair) const;
-    void copy_memory(const ContactBook& book, Block& block) const;
+    void copy_memory(const ContactBook& book, std::size_t block);
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
 
     // time step
     void find_frequency();
-    void add_stiffness(std::size_t block, std::vector<ForceSum>& stiffness) const;
+    void sum_stiffness(std::size_t block, StiffnessSum* stiffness) const;
     double stiffness_soon(std::size_t grain) const;
     double tangent_stiffness(double k, double overlap) const;
 

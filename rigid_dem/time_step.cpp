@@ -4,6 +4,7 @@
 // below twice the sum of what each grain has for itself: K = sum k_n n n' + (1 + c) k_t s s' of its
 // translation and (1 + 1/c) k_t R^2 of its rotation, for any c > 0. A wall does not move: half of that.
 #include <cmath>
+#include <memory>
 
 #include "rigid_dem/solver.hpp"
 
@@ -38,6 +39,17 @@ class FrequencyBound {
 
 }  // namespace
 
+/// A of FrequencyBound. Not initialised, so that the thread of its block is the first to touch it.
+struct RigidDem::StiffnessSum {
+    double xx, xy, yy;  ///< [N/m]
+
+    void add(double k, double nxnx, double nxny, double nyny) {
+        xx += k * nxnx;
+        xy += k * nxny;
+        yy += k * nyny;
+    }
+};
+
 double RigidDem::stable_time_step() const {
     const double zeta = law_.damping_ratio();
     return law_.safety * 2.0 / std::sqrt(frequency2_) * (std::sqrt(1.0 + zeta * zeta) - zeta);
@@ -46,7 +58,7 @@ double RigidDem::stable_time_step() const {
 /// Bound on omega^2 of all grains, for the contacts they have and two that each may have soon.
 void RigidDem::find_frequency() {
     steps_measured_ = 0;
-    std::vector<ForceSum> stiffness(record_.size());
+    const auto stiffness = std::make_unique_for_overwrite<StiffnessSum[]>(record_.size());
     std::vector<double> largest(blocks_.size());
     double shear_ratio = 0.0;
     for (const Block& block : blocks_)
@@ -55,23 +67,21 @@ void RigidDem::find_frequency() {
                 std::max(shear_ratio, *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
     const FrequencyBound bound(shear_ratio, law_.between_grains.rolling_stiffness);
 #pragma omp parallel for schedule(static) if (threads())
-    for (std::size_t b = 0; b < blocks_.size(); ++b) add_stiffness(b, stiffness);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) sum_stiffness(b, stiffness.get());
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
         for (const Arrival& arrival : block.arrivals) {
-            ForceSum& to = stiffness[block.first_record + arrival.grain];
-            to.fx += stiffness[arrival.copy].fx;
-            to.fy += stiffness[arrival.copy].fy;
-            to.shear += stiffness[arrival.copy].shear;
+            const StiffnessSum& from = stiffness[arrival.copy];
+            stiffness[block.first_record + arrival.grain].add(1.0, from.xx, from.xy, from.yy);
         }
         largest[b] = 0.0;
         for (std::size_t g = 0; g < block.grains; ++g) {
-            const ForceSum& own = stiffness[block.first_record + g];
+            const StiffnessSum& own = stiffness[block.first_record + g];
             const double per_mass = record(block, g).inverse_mass;
             const double soon = 2.0 * stiffness_soon(order_[block.first_grain + g]);
             largest[b] = std::max(
-                {largest[b], bound(own.fx, own.fy, own.shear, per_mass), bound(soon, 0.0, 0.0, per_mass)});
+                {largest[b], bound(own.xx, own.xy, own.yy, per_mass), bound(soon, 0.0, 0.0, per_mass)});
         }
     }
     frequency2_ = *std::max_element(largest.begin(), largest.end());
@@ -95,14 +105,11 @@ double RigidDem::stiffness_soon(std::size_t grain) const {
     return Hertz::stiffness(k, std::max(impact, least_overlap * own.radius));
 }
 
-/// A of a block's grains and copies: xx, xy, yy as fx, fy, shear.
-void RigidDem::add_stiffness(std::size_t b, std::vector<ForceSum>& stiffness) const {
+/// Of a block's grains and copies.
+void RigidDem::sum_stiffness(std::size_t b, StiffnessSum* stiffness) const {
     const Block& block = blocks_[b];
-    const auto add = [&](std::size_t record, double k, double nx, double ny) {
-        stiffness[record].fx += k * nx * nx;
-        stiffness[record].fy += k * nx * ny;
-        stiffness[record].shear += k * ny * ny;
-    };
+    std::fill_n(stiffness + block.first_record, block.grains + block.halo.size(),
+                StiffnessSum{0.0, 0.0, 0.0});
     for (std::size_t p = 0; p < block.pairs.size(); ++p) {
         const std::size_t i = block.pairs[p].i, j = block.pairs[p].j;
         const GrainRecord &a = record(block, i), &c = record(block, j);
@@ -110,14 +117,15 @@ void RigidDem::add_stiffness(std::size_t b, std::vector<ForceSum>& stiffness) co
         const double reach = a.radius + c.radius;
         if (distance2 >= reach * reach && (block.bond.empty() || block.bond[p] == 0.0)) continue;
         const double k = tangent_stiffness(block.k[uniform_ ? 0 : p], reach - std::sqrt(distance2));
-        add(block.first_record + i, k / distance2, dx, dy);
-        add(block.first_record + j, k / distance2, dx, dy);
+        for (const std::size_t end : {i, j})
+            stiffness[block.first_record + end].add(k / distance2, dx * dx, dx * dy, dy * dy);
     }
     for (const WallContact& contact : wall_contacts_[b]) {
         const double into = wall_overlap(record_[contact.record], contact.wall, box_);
         if (into <= 0.0) continue;
         const Vec2 n = wall_normal(contact.wall);
-        add(contact.record, 0.5 * tangent_stiffness(contact.stiffness.k, into), n.x(), n.y());
+        stiffness[contact.record].add(0.5 * tangent_stiffness(contact.stiffness.k, into), n.x() * n.x(),
+                                      n.x() * n.y(), n.y() * n.y());
     }
 }
 
