@@ -5,32 +5,13 @@
 #include <numbers>
 
 #include "rigid_dem/laws/contact.hpp"
-#include "rigid_dem/method.hpp"
 #include "rigid_dem/restitution.hpp"
-#include "rigid_dem/solver.hpp"
+#include "tests/rigid_dem/scenes.hpp"
 
 namespace softgrain::rigid_dem {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Scenario scenario_with(const std::function<void(Scenario&, Settings&)>& change) {
-    Scenario s;
-    Settings table(keys());
-    table.set("restitution", 1.0);
-    table.set("overlap_limit", 10.0);
-    change(s, table);
-    s.method_settings["rigid_dem"] = table;
-    return s;
-}
-
-Packing two_discs(double gap) {
-    Packing p;
-    p.box.position = {-100.0, 100.0, -100.0, 100.0};
-    p.center = {{-1.0 - 0.5 * gap, 0.0}, {1.0 + 0.5 * gap, 0.0}};
-    p.radius = {1.0, 1.0};
-    return p;
-}
 
 /// Discs that meet at +- speed until they part: time in contact, largest overlap, speed after.
 struct Collision {

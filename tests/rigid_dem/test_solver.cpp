@@ -4,28 +4,17 @@
 #include <numbers>
 
 #include "common/errors.hpp"
-#include "rigid_dem/method.hpp"
-#include "rigid_dem/solver.hpp"
+#include "tests/rigid_dem/scenes.hpp"
 
 namespace softgrain::rigid_dem {
 namespace {
 
-Scenario scenario_with(double friction, double restitution) {
-    Scenario s;
-    s.material = {.youngs_modulus = 1.0, .poisson_ratio = 0.3, .density = 1.0, .friction = friction};
-    Settings table(method().keys());
-    table.set("restitution", restitution);
-    table.set("overlap_limit", 0.1);
-    s.method_settings["rigid_dem"] = table;
-    return s;
-}
-
-Packing two_discs(double gap) {
-    Packing p;
-    p.box.position = {-100.0, 100.0, -100.0, 100.0};
-    p.center = {{-1.0 - 0.5 * gap, 0.0}, {1.0 + 0.5 * gap, 0.0}};
-    p.radius = {1.0, 1.0};
-    return p;
+Scenario elastic(double friction = 0.0, double restitution = 1.0) {
+    return scenario_with([&](Scenario& s, Settings& table) {
+        s.material.friction = friction;
+        table.set("restitution", restitution);
+        table.set("overlap_limit", 0.1);
+    });
 }
 
 void run(RigidDem& dem, const Packing& p, double time, double dt) {
@@ -37,7 +26,7 @@ void run(RigidDem& dem, const Packing& p, double time, double dt) {
 /// sine.
 TEST(RigidDem, CollisionFollowsTheHalfSine) {
     const Packing p = two_discs(0.0);
-    RigidDem dem(scenario_with(0.0, 1.0), p);
+    RigidDem dem(elastic(), p);
     const double speed = 1e-3;
     dem.set_velocity(std::vector<Vec2>{{speed, 0.0}, {-speed, 0.0}}, std::vector<double>{0.0, 0.0});
     const double omega = std::sqrt(2.0 * 0.5 / std::numbers::pi);
@@ -53,7 +42,7 @@ TEST(RigidDem, CollisionFollowsTheHalfSine) {
 TEST(RigidDem, RestitutionIsTheOneAskedFor) {
     for (const double e : {0.2, 0.5, 0.8, 1.0}) {
         const Packing p = two_discs(0.01);
-        RigidDem dem(scenario_with(0.0, e), p);
+        RigidDem dem(elastic(0.0, e), p);
         dem.set_velocity(std::vector<Vec2>{{0.01, 0.0}, {-0.01, 0.0}}, std::vector<double>{0.0, 0.0});
         run(dem, p, 30.0, 0.001);
         EXPECT_NEAR(dem.view(Need::base).velocity[1].x() / 0.01, e,
@@ -64,7 +53,7 @@ TEST(RigidDem, RestitutionIsTheOneAskedFor) {
 TEST(RigidDem, ObliqueCollisionKeepsLinearAndAngularMomentum) {
     Packing p = two_discs(0.05);
     p.center[1].y() = 0.6;
-    RigidDem dem(scenario_with(0.5, 0.6), p);
+    RigidDem dem(elastic(0.5, 0.6), p);
     dem.set_velocity(std::vector<Vec2>{{0.02, 0.0}, {-0.01, 0.005}}, std::vector<double>{0.02, -0.01});
     const auto momenta = [&] {
         const GrainView v = dem.view(Need::base);
@@ -92,7 +81,7 @@ TEST(RigidDem, StabilityLimitIsWhereItIsPredicted) {
     p.radius = {1.0};
     const double limit = 2.0 / std::sqrt(2.0 / std::numbers::pi);
     const auto speed_after = [&](double dt) {
-        RigidDem dem(scenario_with(0.0, 1.0), p);
+        RigidDem dem(elastic(), p);
         const WallMotion rest{p.box, {}};
         for (int k = 0; k < 400; ++k) dem.advance(rest, dt);
         return dem.view(Need::base).velocity[0].norm();
@@ -101,16 +90,27 @@ TEST(RigidDem, StabilityLimitIsWhereItIsPredicted) {
         0.001 * std::sqrt(2.0 / std::numbers::pi);  // free oscillation from 0.001 off centre
     EXPECT_LT(speed_after(0.98 * limit), 2.0 * starting);
     EXPECT_GT(speed_after(1.02 * limit), 4.0 * starting);
-    RigidDem dem(scenario_with(0.0, 1.0), p);
+    RigidDem dem(elastic(), p);
     EXPECT_LE(dem.stable_time_step(), 0.5 * limit * (1.0 + 1e-12));
+}
+
+/// Stiffness grows with the overlap: grains apart and at rest have none, but are about to.
+TEST(RigidDem, HertzHasAFiniteStepBeforeTheFirstContact) {
+    const Packing p = two_discs(0.5);
+    const auto step = [&](const char* law) {
+        return RigidDem(scenario_with([&](Scenario&, Settings& table) { table.set("normal_law", law); }), p)
+            .stable_time_step();
+    };
+    EXPECT_GT(step("hertz"), step("linear"));
+    EXPECT_LT(step("hertz"), 20.0 * step("linear"));  // k_n 1.5 sqrt(1e-3) of that at a unit overlap
 }
 
 TEST(RigidDem, LeavesItsValidityAtTheOverlapLimit) {
     Packing p = two_discs(-0.099);
-    RigidDem inside(scenario_with(0.0, 1.0), p);
+    RigidDem inside(elastic(), p);
     EXPECT_FALSE(inside.outside_validity());
     p = two_discs(-0.101);
-    RigidDem outside(scenario_with(0.0, 1.0), p);
+    RigidDem outside(elastic(), p);
     ASSERT_TRUE(outside.outside_validity());
     EXPECT_NE(outside.outside_validity()->find("grain 0 and grain 1"), std::string::npos);
 }
@@ -120,14 +120,14 @@ TEST(RigidDem, WallsCountForTheOverlapLimit) {
     p.box.position = {0.0, 5.0, 0.11, 5.0};
     p.center = {{2.0, 1.0}};
     p.radius = {1.0};
-    RigidDem dem(scenario_with(0.0, 1.0), p);
+    RigidDem dem(elastic(), p);
     ASSERT_TRUE(dem.outside_validity());
     EXPECT_NE(dem.outside_validity()->find("grain 0 and the bottom wall is 0.110"), std::string::npos);
 }
 
 TEST(RigidDem, TooLargeAStepIsNamedAndNotHidden) {
     const Packing p = two_discs(-0.05);
-    RigidDem dem(scenario_with(0.0, 1.0), p);
+    RigidDem dem(elastic(), p);
     try {
         run(dem, p, 1e6, 1e4);
         FAIL() << "should have diverged";
@@ -140,7 +140,7 @@ TEST(RigidDem, TooLargeAStepIsNamedAndNotHidden) {
 /// Lens of two discs: the closed form of the covered area.
 TEST(RigidDem, CoveredAreaCountsOverlapsOnce) {
     const Packing p = two_discs(-0.1);
-    RigidDem dem(scenario_with(0.0, 1.0), p);
+    RigidDem dem(elastic(), p);
     const double d = 1.9;
     const double lens = 2.0 * std::acos(d / 2.0) - 0.5 * d * std::sqrt(4.0 - d * d);
     const GrainView view = dem.view(Need::area);
