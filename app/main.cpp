@@ -11,6 +11,7 @@
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
 #include "app/methods.hpp"
+#include "app/probe_fan.hpp"
 #include "app/process.hpp"
 #include "app/run_folder.hpp"
 #include "common/errors.hpp"
@@ -34,6 +35,7 @@ struct Arguments {
     std::vector<std::string> rest;
     double plateau = 0.0, modulus = 0.0;
     int seeds = 5;
+    int directions = 12;
     int threads = 0;
     bool calibrate = false;
     bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
@@ -74,6 +76,20 @@ int compare_command(const Arguments& a) {
                     .force = a.force,
                     .pictures = !a.no_pictures,
                     .quiet = a.quiet});
+}
+
+int fan_command(const Arguments& a) {
+    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    install_stop_signals();
+    return probe_fan({.scenario = scenario,
+                      .methods = a.compared,
+                      .folder = a.out,
+                      .directions = a.directions,
+                      .threads = a.threads,
+                      .resume = a.resume,
+                      .force = a.force,
+                      .pictures = !a.no_pictures,
+                      .quiet = a.quiet});
 }
 
 int calibrate_command(const Arguments& a) {
@@ -230,6 +246,15 @@ int command_line(int argc, char** argv) {
         "choose bpm.attraction_stress so that aggregates yield at material.yield_stress, or "
         "at 0.05 E if it is not given");
     compare_app->add_flag("--no-pictures", a.no_pictures, "numbers only, no plots and pictures");
+
+    CLI::App* fan = add("fan", "probe one state in many directions and draw the response envelope",
+                        fan_command, "fan scenarios/probes/fan.toml --methods rigid_dem --out results/fan");
+    run_options(*fan, a);
+    fan->add_option("--methods", a.compared, "comma separated")->delimiter(',')->required();
+    fan->add_option("--directions", a.directions, "of the probes, evenly round the circle")
+        ->check(CLI::Range(4, 360))
+        ->capture_default_str();
+    fan->add_flag("--no-pictures", a.no_pictures, "numbers only");
 
     calibrate_options(*add("calibrate", "find the attraction that gives aggregates (bpm) a wanted strength",
                            calibrate_command, "calibrate scenarios/default.toml --plateau 0.05"),

@@ -98,10 +98,15 @@ RunReport run_into_folder(const RunRequest& request) {
 
     make_directories(request.folder);
     RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};
+    std::optional<RunFile> before;
     if (earlier) {
         file = std::move(*earlier);
         solver->load(file.solver);
     } else {
+        if (!request.from.empty()) {
+            before = read_run_file(request.from / "run.h5");
+            solver->load(before->solver);
+        }
         // What an earlier run left must not be taken for this one's.
         std::filesystem::remove(request.folder / "run.h5");
         std::filesystem::remove(request.folder / "run.json");
@@ -127,6 +132,7 @@ RunReport run_into_folder(const RunRequest& request) {
 
     TimeLoop run(scenario, request.packing, *solver, observers);
     if (earlier) run.resume(file.state);
+    if (before) run.branch(before->state);
     const double wall_before = file.wall_time;
     const double cpu_before = file.cpu_time;
     const auto checkpoint = [&] {

@@ -14,6 +14,8 @@ struct RunRequest {
     const Packing& packing;
     const Method& method;
     std::filesystem::path folder;
+    /// Folder of a finished run of the stages before the last one, to start from; empty for the start.
+    std::filesystem::path from = {};
     int threads = 1;
     bool resume = false;              ///< go on from the folder's checkpoint if there is one
     bool force = false;               ///< replace results that are there

@@ -10,6 +10,9 @@
 
 namespace softgrain {
 
+/// RunState::ended of a run that came to the end of its last stage.
+inline constexpr const char* ended_in_order = "loading done";
+
 /// Everything of the loop that a restart needs. Complete with the solver's own state.
 struct RunState {
     long long step = 0;

@@ -54,6 +54,15 @@ void TimeLoop::resume(const RunState& state) {
     for (Observer* observer : observers_) observer->resume(state_.frame_times);
 }
 
+void TimeLoop::branch(const RunState& state) {
+    state_ = state;
+    state_.ended.clear();
+    state_.history.clear();
+    state_.frame_times.clear();
+    begin_stage(state_.stage + 1);
+    sample(driver_.front(), false);
+}
+
 void TimeLoop::start() {
     const GrainView view = solver_.view(Need::area);
     state_.initial_energy = view.energy.kinetic + view.energy.elastic;
@@ -156,7 +165,7 @@ void TimeLoop::check(const StageDriver& driver, bool at_end) {
     if (!invalid.empty()) {
         state_.ended = "left its range of validity: " + invalid;
     } else if (over && last_stage) {
-        state_.ended = "loading done";
+        state_.ended = ended_in_order;
     }
     if (over || finished() || state_.checks % checks_per_sample == 0) sample(driver, finished());
     if (over && !finished()) begin_stage(state_.stage + 1);

@@ -21,6 +21,10 @@ class TimeLoop {
     /// Continue from a saved state instead of the start; the solver must have loaded its own part.
     void resume(const RunState& state);
 
+    /// Begin with the stage that follows those of a run that ended in order, with a history of its own; the
+    /// solver must have loaded its part.
+    void branch(const RunState& state);
+
     /// Runs until the loading is done, the method leaves its validity (see state().ended), or `stop` becomes
     /// non-zero. `after_step` is called after every step. Throws DivergedError, OutputError, and
     /// InputError if a stage turns out to begin beyond its end.

@@ -20,6 +20,10 @@ $softgrain compare scenarios/packing24/isotropic.toml --methods sdem --quiet --o
 cp "$out/packing24/stress.png" "$figures/packing24_stress.png"
 cp "$out/packing24/coordination.png" "$figures/packing24_coordination.png"
 
+echo "== stress probes from one state"
+$softgrain fan scenarios/probes/fan.toml --methods rigid_dem,sdem --quiet --out "$out/fan"
+cp "$out/fan/response.png" "$figures/probe_fan.png"
+
 echo "== one grain between four walls"
 series=""
 colour=0

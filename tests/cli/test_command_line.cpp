@@ -95,7 +95,7 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, HelpAndVersionAndList) {
-    for (const std::string command : {"run", "compare", "calibrate", "validate", "list", "info"}) {
+    for (const std::string command : {"run", "compare", "fan", "calibrate", "validate", "list", "info"}) {
         const Outcome help = softgrain({command, "--help"});
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Example:"), std::string::npos) << command;
@@ -335,6 +335,47 @@ TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
 double number_after(const std::string& text, const std::string& word) {
     const auto at = text.find(word);
     return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + word.size()));
+}
+
+/// Small probes of a frictionless packing: an elastic response, the opposite for the opposite direction, all
+/// from one state; a repeat with --resume changes nothing.
+TEST_F(CommandLine, AFanOfProbesFromOneState) {
+    const std::string text =
+        "[packing]\ncount = 60\n[[loading]]\nkind = \"stress\"\npressure = 5e-3\ninertial_number = 1e-3\n"
+        "until_unbalanced = 1e-4\n";
+    const fs::path fan =
+        write("fan.toml", text +
+                              "[[loading]]\nkind = \"probe\"\nstress_amplitude = 5e-5\ndirection = 0\n"
+                              "inertial_number = 1e-4\nuntil_unbalanced = 1e-4\n");
+    const std::vector<std::string> command{
+        "fan",     fan.string(),    "--methods",    "rigid_dem", "--out", (folder / "f").string(),
+        "--quiet", "--no-pictures", "--directions", "4"};
+    const Outcome o = softgrain(command);
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    const std::string response = content(folder / "f" / "response.csv");
+    EXPECT_EQ(std::count(response.begin(), response.end(), '\n'), 5);
+    const fs::path run = folder / "f" / "rigid_dem";
+    const History state = read_history(run / "state" / "history.csv");
+    const auto strain = [&](const std::string& probe) {
+        const History h = read_history(run / probe / "history.csv");
+        EXPECT_DOUBLE_EQ(h.column("strain_xx").front(), state.column("strain_xx").back());
+        EXPECT_EQ(h.column("time").front(), state.column("time").back());
+        return h.column("strain_xx").back() - h.column("strain_xx").front();
+    };
+    const double onward = strain("probe_000.0"), back = strain("probe_180.0"), across = strain("probe_090.0");
+    EXPECT_GT(onward, 0.0);
+    EXPECT_NEAR(back / onward, -1.0, 0.1);  // contacts that open or close: strains are not infinitely small
+    EXPECT_LT(across, 0.0);                 // Poisson's effect
+
+    std::vector<std::string> again = command;
+    again.push_back("--resume");
+    EXPECT_EQ(softgrain(again).exit_code, 0);
+    EXPECT_EQ(content(folder / "f" / "response.csv"), response);
+
+    const Outcome none = softgrain({"fan", write("none.toml", text).string(), "--methods", "rigid_dem",
+                                    "--out", (folder / "n").string()});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_NE(none.err.find("kind = \"probe\""), std::string::npos) << none.err;
 }
 
 TEST_F(CommandLine, CalibrateFindsTheAttractionAndSaysHowWell) {
