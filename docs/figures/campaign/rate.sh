@@ -33,17 +33,10 @@ make_rate() {
             printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s, %s | %s |\n" $rate "$(summary "$row" peak %.3f)" \
                 "$(summary "$row" peak_strain %.3f)" "$(summary "$row" dilatancy %.1f)" "$(summary "$row" residual %.3f)" \
                 "$(summary "$row" residual_phi %.4f)" "$(summary "$row" contraction %.4f)" "$(summary "$row" volumetric_end %.4f)" \
-                "$(extreme "$row" lateral_low -1)" "$(extreme "$row" lateral_high 1)" \
+                "$(extreme "$row" lateral_low -1 500)" "$(extreme "$row" lateral_high 1 500)" \
                 "$(for seed in $seeds_rate; do result "$(rate_run $rate $seed)" cpu_time; done | awk '{ sum += $1 } END { printf "%.1f", sum / NR }')"
         done
     } | table rate
     seconds | table seconds_rate
     publish rate_{ratio,volumetric}
-}
-
-# extreme FILE COLUMN SIGN: largest (1) or least (-1) of a column of stresses over all seeds, in units of the lateral stress.
-extreme() {
-    awk -F, -v wanted="$2" -v sign="$3" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) c = i; next }
-        NR == 2 || sign * $c > sign * best { best = $c }
-        END { printf "%.2f", best / 2e-3 }' "$1"
 }

@@ -95,3 +95,10 @@ features() {
 
 # Grids of axial strain for curves, running means over HALF on each side.
 axial_grid() { seq -s, -f %.4f 0 0.001 "$1"; }
+
+# extreme FILE COLUMN SIGN FACTOR: largest (SIGN 1) or least (-1) over the rows, times FACTOR.
+extreme() {
+    awk -F, -v wanted="$2" -v sign="$3" -v factor="$4" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) c = i; next }
+        NR == 2 || sign * $c > sign * best { best = $c }
+        END { printf "%.2f", best * factor }' "$1"
+}
