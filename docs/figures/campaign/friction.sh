@@ -27,15 +27,15 @@ make_friction() {
     plot friction_angle "Dense samples in biaxial compression" '"label": "friction coefficient between grains"' \
         '"label": "friction angle asin(q / p) [degrees]", "min": 0' bottom_right
     {
-        echo "| friction | angle of it, atan [deg] | peak q/p | peak angle [deg] | at axial strain | dilatancy angle there [deg] | residual q/p | residual angle [deg] | residual phi | residual Z |"
-        echo "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
+        echo "| friction | angle of it, atan [deg] | peak q/p | peak angle [deg] | at axial strain | dilatancy angle there [deg] | residual q/p | residual angle [deg] | residual phi | residual Z | (peak - residual angle) / dilatancy angle |"
+        echo "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
         for friction in $frictions; do
             row=$table.$friction.csv
-            printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n" "$friction" \
+            printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n" "$friction" \
                 "$(awk -v f="$friction" 'BEGIN { printf "%.1f", atan2(f, 1) * 57.29578 }')" \
                 "$(summary "$row" peak %.3f)" "$(angles "$row" peak)" "$(summary "$row" peak_strain %.3f)" \
                 "$(summary "$row" dilatancy %.1f)" "$(summary "$row" residual %.3f)" "$(angles "$row" residual)" \
-                "$(summary "$row" residual_phi %.4f)" "$(summary "$row" residual_Z %.2f)"
+                "$(summary "$row" residual_phi %.4f)" "$(summary "$row" residual_Z %.2f)" "$(share_of_dilatancy "$row")"
         done
     } | table friction
     seconds | table seconds_friction
@@ -49,4 +49,12 @@ spread() {
         NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) c = i; next }
         { sum += $c; if (NR == 2 || $c < low) low = $c; if (NR == 2 || $c > high) high = $c }
         END { mean = sum / (NR - 1); print x, mean, low, high, angle(mean), angle(low), angle(high) }' "$1"
+}
+
+# share_of_dilatancy FILE: of the means over the samples.
+share_of_dilatancy() {
+    awk -F, 'function angle(sine) { return atan2(sine, sqrt(1 - sine * sine)) * 57.29578 }
+        NR == 1 { for (i = 1; i <= NF; ++i) c[$i] = i; next }
+        { over += angle($c["peak"]) - angle($c["residual"]); psi += $c["dilatancy"] }
+        END { printf "%.2f", over / psi }' "$1"
 }
