@@ -21,7 +21,8 @@ features_of_shear() {
     for name in "$@"; do
         derive shear.awk "$name"
         awk -F, -v OFS=, -v from="$from" -v name="$name" -v window=0.02 '
-            NR == 1 || $1 == 0 { if (NR > 1) phi0 = $4; next }
+            NR == 1 { next }
+            $1 == 0 { phi0 = $4; next }
             {
                 ++n; shear[n] = $1; ratio[n] = $2; sum += $2
                 for (first += !first; shear[n] - shear[first] > window * 1.0001; ++first) sum -= ratio[first]
