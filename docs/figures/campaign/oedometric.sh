@@ -25,7 +25,7 @@ make_oedometric() {
     for method in sdem bpm rigid_dem; do
         curve "$method" "oedometric_oedometric-$method.csv" packing_fraction ratio "\"colour\": $((colour++))"
     done
-    plot oedometric_ratio "Oedometric compaction of 50 grains" '"label": "packing fraction"' \
+    plot oedometric_ratio "Oedometric compaction of 50 grains" '"label": "packing fraction", "min": 0.8' \
         '"label": "lateral / axial stress", "min": 0, "max": 1.2' bottom_right
     {
         echo "| method | | phi = ${phis//,/ | } |"

@@ -30,7 +30,7 @@ make_stiffness() {
         # The levels of all seeds that came to rest; Z beyond the isostatic 4 of frictionless discs.
         for seed in $seeds_stiffness; do cat "$runs/stiffness-$kind-$seed/derived.csv"; done | awk -F, -v OFS=, '
             !/^[0-9]/ { if (NR == 1) print $0, "level", "excess"; next }
-            $6 <= 2e-5 { print $0, sprintf("%.1f", 2 * log($1) / log(10)), $4 > 4 ? $4 - 4 : "" }' >"$made/stiffness_$kind.all.csv"
+            $6 <= 2e-5 { print $0, sprintf("%.1f", 2 * log($1) / log(10)), ($4 > 4 ? $4 - 4 : "") }' >"$made/stiffness_$kind.all.csv"
         by_level "$made/stiffness_$kind.all.csv" >"$made/stiffness_$kind.csv"
     done
     plot_stiffness K "bulk modulus K / E"
@@ -40,7 +40,7 @@ make_stiffness() {
         echo "| contacts | friction | pressures / E | K / E there | exponent of K | G / E there | exponent of G | Z there | exponent of Z - 4 | levels at rest |"
         echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
         for kind in $kinds_stiffness; do
-            awk -F, -v name="$(label_of $kind)" -v friction="${kind#*-}" '
+            awk -F, -v name="${kind%-*}" -v friction="${kind#*-}" '
                 function add(k, y) { y = log(y); ++n[k]; sx[k] += x; sy[k] += y; sxx[k] += x * x; sxy[k] += x * y; syy[k] += y * y }
                 function exponent(k,   a, b, r) {
                     if (n[k] < 3) return "-"
@@ -72,10 +72,12 @@ by_level() {
 
 # plot_stiffness COLUMN LABEL: all kinds against pressure.
 plot_stiffness() {
-    local kind colour=0 log=', "log": true'
-    [ $1 != coordination ] || log=""
+    local kind colour=0 log=', "log": true' legend=bottom_right
+    [ $1 != coordination ] || log="" legend=top_left
     for kind in $kinds_stiffness; do
+        # 100 grains are too few for G.
+        [ $1$kind != Gsdem-0 ] || continue
         curve "$(label_of $kind)" "stiffness_$kind.csv" pressure $1 "\"marker\": \"circle\", \"colour\": $((colour++))"
     done
-    plot stiffness_$1 "Jammed packings, means of two seeds" '"label": "pressure / E", "log": true' "\"label\": \"$2\"$log" right
+    plot stiffness_$1 "Jammed packings, means of two seeds" '"label": "pressure / E", "log": true' "\"label\": \"$2\"$log" $legend
 }
