@@ -25,11 +25,12 @@ plan_rate() {
 }
 
 make_rate() {
-    local rate column label
+    local rate column label name
     for rate in $rates; do
-        features 0.2 $(rate_runs 400 $rate) >"$made/rate.400.$rate.csv"
+        for name in $(rate_runs 400 $rate); do derive biaxial.awk "$name"; done
         band_of axial ratio,volumetric,lateral_share 0.002 "$(axial_grid 0.28)" $(rate_runs 400 $rate) >"$made/rate_$rate.csv"
     done
+    for rate in 1e-4 3e-4 1e-3 3e-3; do features 0.2 $(rate_runs 400 $rate) >"$made/rate.400.$rate.csv"; done
     for rate in 1e-4 3e-4 1e-3; do features 0.2 $(rate_runs 2000 $rate) >"$made/rate.2000.$rate.csv"; done
     for column in ratio volumetric lateral_share; do
         for rate in $rates; do curve "I = $rate" "rate_$rate.csv" axial $column; done
@@ -43,9 +44,10 @@ make_rate() {
     {
         echo "| grains | I | peak q/p | at axial strain | dilatancy angle there [deg] | residual q/p | residual phi | largest contraction | volumetric strain beyond 0.2 | lateral stress / target: least, largest | CPU time of one run [s] |"
         echo "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
-        for rate in $rates; do row_of_rate 400 $rate; done
+        for rate in 1e-4 3e-4 1e-3 3e-3; do row_of_rate 400 $rate; done
+        ends_of_rate 400 1e-2 0.3
         for rate in 1e-4 3e-4 1e-3; do row_of_rate 2000 $rate; done
-        ends_of_rate 3e-3
+        ends_of_rate 2000 3e-3 0.15
     } | table rate
     seconds | table seconds_rate
     publish rate_{ratio,volumetric,lateral_share}
@@ -61,13 +63,13 @@ row_of_rate() {
         "$(rate_runs $1 $2 | while read -r name; do result "$name" cpu_time; done | awk '{ sum += $1 } END { printf "%.1f", sum / NR }')"
 }
 
-# ends_of_rate RATE: where the runs of 2000 grains ended that left the range of rigid discs.
+# ends_of_rate GRAINS RATE LIMIT: where the runs ended whose overlaps went beyond their limit.
 ends_of_rate() {
     local name
-    for name in $(rate_runs 2000 $1); do
+    for name in $(rate_runs $1 $2); do
         derive biaxial.awk "$name"
         tail -1 "$runs/$name/derived.csv"
-    done | awk -F, -v rate=$1 '
-        { if (NR == 1 || $1 < low) low = $1; if ($1 > high) high = $1; stress += $8 * 500 / 3 }
-        END { printf "| 2000 | %s | the runs end at an axial strain of %.3f to %.3f: overlaps beyond 0.15 of a radius, at a lateral stress of %.1f times its target | | | | | | | | |\n", rate, low, high, stress }'
+    done | awk -F, -v grains=$1 -v rate=$2 -v limit=$3 '
+        { if (NR == 1 || $1 < low) low = $1; if ($1 > high) high = $1; stress += $8 * 500 }
+        END { printf "| %s | %s | the runs end at an axial strain of %.3f to %.3f: overlaps beyond %s of a radius, at a lateral stress of %.1f times its target | | | | | | | | |\n", grains, rate, low, high, limit, stress / NR }'
 }
