@@ -47,13 +47,14 @@ make_biaxial() {
         done
     } | table biaxial_seeds
     {
-        echo "| method | largest q/p | at axial strain | q/p at axial strain 0.09 | largest volumetric strain | that at axial strain 0.09 | CPU time [s] |"
-        echo "|---|--:|--:|--:|--:|--:|--:|"
+        echo "| method | largest q/p | at axial strain | q/p at axial strain 0.09 | largest volumetric strain | that at axial strain 0.09 | lateral stress / target: least, largest | CPU time [s] |"
+        echo "|---|--:|--:|--:|--:|--:|--:|--:|"
         for method in sdem rigid_dem; do
             features 0.09 "biaxial-small-$method" >"$table.small.csv"
-            printf "| \`%s\` | %s | %s | %s | %s | %s | %.1f |\n" $method "$(summary "$table.small.csv" peak %.3f)" \
+            printf "| \`%s\` | %s | %s | %s | %s | %s | %s, %s | %.1f |\n" $method "$(summary "$table.small.csv" peak %.3f)" \
                 "$(summary "$table.small.csv" peak_strain %.3f)" "$(summary "$table.small.csv" residual %.3f)" \
                 "$(summary "$table.small.csv" contraction %.4f)" "$(summary "$table.small.csv" volumetric_end %.4f)" \
+                "$(extreme "$table.small.csv" lateral_low -1 500)" "$(extreme "$table.small.csv" lateral_high 1 500)" \
                 "$(result "biaxial-small-$method" cpu_time)"
         done
     } | table small
