@@ -53,7 +53,7 @@ StageDriver::StageDriver(const LoadingStage& stage, std::size_t number, const Sa
                                 "amplitude smaller",
                                 number, *target));
         // Where only the servo strains the packing its stress tells how stiff it is.
-        servo_.emplace(plan_.target, initial, grains.density, stage.seeks_stress());
+        servo_.emplace(plan_.target, initial, grains.density, grains.mean_diameter, stage.seeks_stress());
     }
     interval_ = sampling.strain_interval;
     if (is_timed()) {

@@ -30,9 +30,9 @@ struct ServoState {
 
 class Servo {
   public:
-    /// `initial` is the box at the start of the run; `density` that of the grains [kg/m^2]. Only if `learns`
-    /// is the stiffness measured: not while something else strains the packing.
-    Servo(const StressTargets& targets, const Box& initial, double density, bool learns);
+    /// `initial` is the box at the start of the run; `density` [kg/m^2] and `diameter` [m] are means of the
+    /// grains. Only if `learns` is the stiffness measured: not while something else strains the packing.
+    Servo(const StressTargets& targets, const Box& initial, double density, double diameter, bool learns);
 
     /// The state at the start of a stage, from that of the stage before and the present stress of each axis.
     /// `stress_scale` stands for the stiffness until that is known.
@@ -55,7 +55,7 @@ class Servo {
 
     StressTargets targets_;
     Box initial_;
-    double density_;
+    double density_, diameter_;
     bool learns_;
 };
 
