@@ -216,8 +216,11 @@ TEST_F(CommandLine, StoppedAndResumedEndsWithTheSameBits) {
         const std::string rate = method == "bpm"    ? "4e-4"
                                  : method == "sdem" ? "1e-6"
                                                     : "2e-7";  // about a second
-        const std::vector<std::string> base{"run",   small_scenario(rate).string(), "--method", method,
-                                            "--set", "sampling.parts=true"};
+        const std::vector<std::string> base{
+            "run",      small_scenario(rate).string(),
+            "--method", method,
+            "--set",    "sampling.parts=true",
+            "--set",    "sampling.measures=forces,chains,pair_correlation,tessellation"};
         const auto into = [&](const std::string& name, bool resume) {
             auto command = base;
             command.insert(command.end(), {"--out", (folder / name).string()});
@@ -247,7 +250,7 @@ TEST_F(CommandLine, StoppedAndResumedEndsWithTheSameBits) {
         const RunFile b = read_run_file(folder / broken / "run.h5");
         EXPECT_EQ(a.solver.numbers, b.solver.numbers) << method;
         EXPECT_EQ(a.solver.integers, b.solver.integers) << method;
-        for (const char* series : {"grains", "contacts", "walls", "parts", "part_contacts"}) {
+        for (const char* series : {"grains", "contacts", "walls", "parts", "part_contacts", "measures"}) {
             const bool of_parts = std::string_view(series).starts_with("part");
             ASSERT_EQ(fs::exists(folder / straight / series), method == "bpm" || !of_parts)
                 << "grains of " << method << " have no parts";
