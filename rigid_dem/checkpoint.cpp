@@ -31,6 +31,14 @@ void RigidDem::save(Checkpoint& to) const {
         state.insert(state.end(), {g.x, g.y, g.vx, g.vy, g.spin});
     });
     to.put("state", state);
+    if (clumps_) {
+        std::vector<double> clumps;
+        for (std::size_t g = 0; g < clumps_->size(); ++g) {
+            const ClumpState s = clumps_->state(g);
+            clumps.insert(clumps.end(), {s.x, s.y, s.vx, s.vy, s.spin, s.angle});
+        }
+        to.put("clumps", clumps);
+    }
     std::vector<double> memory, at_walls;
     for (const Block& block : blocks_)
         for (const auto array : memories)
@@ -79,6 +87,13 @@ void RigidDem::load(const Checkpoint& from) {
         for (double* value : {&g.x, &g.y, &g.vx, &g.vy, &g.spin}) *value = values[next++];
         g.rim_speed = g.spin * g.radius;
     });
+    if (clumps_) {
+        read("clumps", values, 6 * clumps_->size());
+        for (std::size_t g = 0; g < clumps_->size(); ++g) {
+            const double* const s = &values[6 * g];
+            clumps_->set_state(g, {s[0], s[1], s[2], s[3], s[4], s[5]});
+        }
+    }
     std::size_t size = 0;
     for (const Block& block : blocks_)
         for (const auto array : memories) size += (block.*array).size();
