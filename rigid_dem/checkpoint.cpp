@@ -52,6 +52,20 @@ void RigidDem::save(Checkpoint& to) const {
                                          dissipated_.adhesion});
 }
 
+/// As save() puts it.
+void RigidDem::remember(const std::vector<double>& memory, const std::vector<double>& at_walls) {
+    auto next = memory.begin();
+    for (Block& block : blocks_)
+        for (const auto array : memories)
+            for (double& one : block.*array) one = *next++;
+    next = at_walls.begin();
+    for (auto& contacts : wall_contacts_)
+        for (WallContact& contact : contacts) {
+            ContactMemory& m = contact.memory;
+            for (double* one : {&m.shear, &m.dashpot, &m.grip, &m.moment, &m.bond}) *one = *next++;
+        }
+}
+
 void RigidDem::load(const Checkpoint& from) {
     const auto read = [&](std::string_view name, auto& into, std::size_t size) {
         from.get(name, into);
@@ -97,20 +111,11 @@ void RigidDem::load(const Checkpoint& from) {
     std::size_t size = 0;
     for (const Block& block : blocks_)
         for (const auto array : memories) size += (block.*array).size();
-    read("memory", values, size);
-    auto memory = values.begin();
-    for (Block& block : blocks_)
-        for (const auto array : memories)
-            for (double& one : block.*array) one = *memory++;
+    std::vector<double> memory, at_walls;
+    read("memory", memory, size);
     size = 0;
     for (const auto& contacts : wall_contacts_) size += 5 * contacts.size();
-    read("wall_memory", values, size);
-    memory = values.begin();
-    for (auto& contacts : wall_contacts_)
-        for (WallContact& contact : contacts) {
-            ContactMemory& m = contact.memory;
-            for (double* one : {&m.shear, &m.dashpot, &m.grip, &m.moment, &m.bond}) *one = *memory++;
-        }
+    read("wall_memory", at_walls, size);
 
     read("box", values, 4);
     std::copy(values.begin(), values.end(), box_.position.begin());
@@ -120,7 +125,9 @@ void RigidDem::load(const Checkpoint& from) {
     read("walls_velocity", values, 5);
     walls_ = {box_, {values[0], values[1], values[2], values[3]}, values[4]};
     law_.between_grains.sticks = scalars[6];
+    remember(memory, at_walls);
     evaluate_forces(walls_, 0.0);
+    remember(memory, at_walls);  // an evaluation makes 0 of -0
 
     travelled_ = scalars[3];
     frequency2_ = scalars[4];

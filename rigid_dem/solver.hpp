@@ -70,6 +70,7 @@ class RigidDem final : public Solver {
     ContactBook open_book() const;
     bool forgets(const Block& block, std::size_t pair) const;
     void copy_memory(const ContactBook& book, Block& block) const;
+    void remember(const std::vector<double>& memory, const std::vector<double>& at_walls);
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
