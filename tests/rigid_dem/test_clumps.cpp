@@ -74,7 +74,7 @@ Scenario mixture(bool periodic, int count, double friction) {
     for (GrainClass& c : s.classes) c.material = s.material;
     s.packing.count = count;
     s.packing.generator = Generator::random_sequential;
-    s.packing.packing_fraction = 0.4;
+    s.packing.packing_fraction = 0.33;
     s.box.periodic = periodic;
     return s;
 }
@@ -284,28 +284,35 @@ TEST(Clumps, StabilityLimitIsWhereItIsPredicted) {
 struct Case {
     bool periodic, hertz;
     double friction, rolling, cohesion, nonviscous;
+    double safety, most;  ///< residual / external work
 };
 
 /// Compaction to beyond jamming: the ledger closes, stresses agree.
 TEST(Clumps, CompactionClosesItsEnergyLedger) {
-    for (const Case& c : {Case{false, false, 0.0, 0.0, 0.0, 0.0}, Case{true, false, 0.0, 0.0, 0.0, 0.0},
-                          Case{false, false, 0.4, 0.0, 0.0, 0.0}, Case{true, false, 0.4, 0.2, 0.0, 0.0},
-                          Case{true, true, 0.4, 0.2, 0.0, 0.0}, Case{true, false, 0.3, 0.0, 1e-3, 0.0},
-                          Case{true, false, 0.3, 0.0, 0.0, 0.3}, Case{false, true, 0.3, 0.1, 0.0, 0.2}}) {
+    // What is left vanishes with the time step; of Hertz's law with rolling a share stays.
+    for (const Case& c :
+         {Case{false, false, 0.0, 0.0, 0.0, 0.0, 0.5, 0.01}, Case{true, false, 0.0, 0.0, 0.0, 0.0, 0.5, 0.01},
+          Case{false, false, 0.4, 0.0, 0.0, 0.0, 0.5, 0.01}, Case{true, false, 0.4, 0.2, 0.0, 0.0, 0.5, 0.01},
+          Case{true, false, 0.3, 0.0, 1e-3, 0.0, 0.5, 0.01}, Case{true, false, 0.3, 0.0, 0.0, 0.3, 0.5, 0.01},
+          Case{true, true, 0.4, 0.2, 0.0, 0.0, 0.5, 0.01}, Case{false, true, 0.3, 0.1, 0.0, 0.2, 0.5, 0.01},
+          Case{false, false, 0.4, 0.2, 0.0, 0.0, 0.1, 3e-4}, Case{true, false, 0.4, 0.2, 0.0, 0.3, 0.1, 3e-4},
+          Case{true, false, 0.0, 0.0, 0.0, 0.0, 0.1, 3e-4},
+          Case{true, true, 0.3, 0.0, 0.0, 0.0, 0.1, 3e-4}}) {
         Scenario s = mixture(c.periodic, 40, c.friction);
         s.material.cohesion = c.cohesion;
         Settings& table = s.method_settings["rigid_dem"];
         table.set("rolling_friction", c.rolling);
         table.set("nonviscous_damping", c.nonviscous);
+        table.set("safety", c.safety);
         table.set("normal_law", std::string(c.hertz ? "hertz" : "linear"));
         const Packing p = make_packing(s);
         RigidDem dem(s, p);
         const EnergyLedger start = dem.view(Need::base).energy;
-        const double strain = 1.0 - std::sqrt(0.4 / 0.9);
+        const double strain = 1.0 - std::sqrt(0.33 / 0.9);
         const Box box = compress(dem, p.box, strain, 600.0);
         const GrainView view = dem.view(Need::all);
         EXPECT_GT(view.energy.elastic, 0.0);
-        EXPECT_LT(std::abs(residual(start, view.energy)), 0.01 * view.energy.external_work)
+        EXPECT_LT(std::abs(residual(start, view.energy)), c.most * view.energy.external_work)
             << "periodic " << c.periodic << " friction " << c.friction << " work "
             << view.energy.external_work << " residual " << residual(start, view.energy);
         const Mat2 stress = love_weber_stress(view);
@@ -322,7 +329,7 @@ TEST(Clumps, WallStressIsLoveWeberAtRest) {
     s.method_settings["rigid_dem"].set("restitution", 0.1);
     const Packing p = make_packing(s);
     RigidDem dem(s, p);
-    const Box box = compress(dem, p.box, 1.0 - std::sqrt(0.4 / 0.9), 600.0);
+    const Box box = compress(dem, p.box, 1.0 - std::sqrt(0.33 / 0.9), 600.0);
     compress(dem, box, 0.0, 4000.0);
     const GrainView view = dem.view(Need::all);
     EXPECT_LT(unbalanced_force(view), 1e-5);
@@ -347,7 +354,7 @@ TEST(Clumps, SameBitsForAnyNumberOfThreads) {
         ASSERT_GT(packing_of_discs(p).size(), 2048U);
         testing::expect_threads_keep_bits(
             [&] { return std::make_unique<RigidDem>(s, p); }, {1, 2},
-            [&](Solver& solver) { compress(dynamic_cast<RigidDem&>(solver), p.box, 0.3, 60.0); });
+            [&](Solver& solver) { compress(dynamic_cast<RigidDem&>(solver), p.box, 0.2, 20.0); });
     }
 }
 
