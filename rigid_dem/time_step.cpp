@@ -53,7 +53,7 @@ void RigidDem::find_frequency() {
     std::vector<double> largest(blocks_.size());
     double shear_ratio = 0.0;
     for (const Block& block : blocks_)
-        if (law_.rotates)
+        if (law_.rotates && !block.shear_ratio.empty())
             shear_ratio =
                 std::max(shear_ratio, *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
     const FrequencyBound bound(shear_ratio, law_.between_grains.rolling_stiffness);
