@@ -56,6 +56,8 @@ void RigidDem::find_frequency() {
         if (law_.rotates && !block.shear_ratio.empty())
             shear_ratio =
                 std::max(shear_ratio, *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
+    if (law_.rotates && shear_ratio == 0.0)
+        shear_ratio = stiffness_at_wall(law_, elasticity_of(0)).shear_ratio;
     const FrequencyBound bound(shear_ratio, law_.between_grains.rolling_stiffness);
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) add_stiffness(b, stiffness);
