@@ -190,6 +190,7 @@ constexpr std::array refusals{
     Refusal{Feature::periodic_cell, "its contact solver knows only walls"},
     Refusal{Feature::grain_classes, "its discs attract each other alike in every grain"},
     Refusal{Feature::ellipses, "its aggregates begin as discs"},
+    Refusal{Feature::clumps, "its aggregates begin as discs"},
     Refusal{Feature::wall_friction, "its walls are frictionless"},
     Refusal{Feature::cohesion, "its discs attract each other only within a grain"},
     Refusal{Feature::yield_stress, "its grains yield by bpm.attraction_stress"},

@@ -113,7 +113,8 @@ struct GrainView {
     std::span<const double> area;  ///< [n] current area of each grain [m^2]
     double covered_area = 0.0;     ///< area covered by grains, overlaps counted once [m^2]
 
-    std::span<const GrainContact> contacts;  ///< sorted by (i, j), walls (j < 0) first
+    /// Sorted by (i, j), walls (j < 0) first; a pair stands there once for each place where it touches.
+    std::span<const GrainContact> contacts;
 
     std::span<const Mat2> stress;  ///< [n] mean Cauchy stress of each grain [N/m]
 

@@ -47,6 +47,19 @@ class NeighborList {
     /// Motion along with the cell does not count, its deformation does.
     bool stale(std::span<const Vec2> x, std::span<const double> reach, const Box& cell) const;
 
+    /// Leaves out the pairs that `keep(i, j)` does not want.
+    template <class Keep>
+    void keep_if(const Keep& keep) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < pairs_.size(); ++k) {
+            if (!keep(pairs_[k].i, pairs_[k].j)) continue;
+            if (!images_.empty()) images_[kept] = images_[k];
+            pairs_[kept++] = pairs_[k];
+        }
+        pairs_.resize(kept);
+        if (!images_.empty()) images_.resize(kept);
+    }
+
     /// Frees the pairs; stale() goes on to work.
     void forget_pairs();
 

@@ -50,6 +50,10 @@ std::optional<Asked> asked_for(const Scenario& scenario, const Packing& packing,
                             [](double ratio) { return ratio != 1.0; }))
                 return Asked{"a packing of ellipses", "set grain_class.aspect_ratio = 1"};
             break;
+        case Feature::clumps:
+            if (!packing.clumps.empty())
+                return Asked{"a packing of clumps", "leave out grain_class.clump and clump_discs"};
+            break;
         case Feature::friction:
             return material_key("friction", material.friction);
         case Feature::wall_friction:
@@ -71,6 +75,7 @@ constexpr std::array rows{
     FeatureRow{"stress and strain probes, cycles", std::nullopt},
     FeatureRow{"several grain classes", Feature::grain_classes},
     FeatureRow{"ellipses", Feature::ellipses},
+    FeatureRow{"rigid clusters of discs (clumps)", Feature::clumps},
     FeatureRow{"friction between grains", Feature::friction},
     FeatureRow{"friction at walls", Feature::wall_friction},
     FeatureRow{"cohesion", Feature::cohesion},

@@ -13,6 +13,7 @@ enum class Feature {
     periodic_cell,
     grain_classes,  ///< more than one
     ellipses,
+    clumps,  ///< rigid clusters of discs
     friction,
     wall_friction,
     cohesion,

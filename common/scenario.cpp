@@ -9,6 +9,10 @@ bool Scenario::has_ellipses() const {
                        [](const GrainClass& c) { return c.aspect_ratio > 1.0; });
 }
 
+bool Scenario::has_clumps() const {
+    return std::any_of(classes.begin(), classes.end(), [](const GrainClass& c) { return !c.clump.empty(); });
+}
+
 std::vector<std::size_t> stage_order(const std::vector<LoadingStage>& loading) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < loading.size(); ++k) {

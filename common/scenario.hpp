@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/box.hpp"
+#include "common/disc.hpp"
 #include "common/settings.hpp"
 
 namespace softgrain {
@@ -27,9 +28,10 @@ struct Material {
 /// friction, cohesion) is that of the scenario.
 struct GrainClass {
     std::string name;
-    double share = 1.0;         ///< by number, relative to the sum over the classes
-    Material material;          ///< complete
-    double aspect_ratio = 1.0;  ///< of undeformed grains: discs or ellipses of the same area, 1 to 3
+    double share = 1.0;            ///< by number, relative to the sum over the classes
+    Material material;             ///< complete
+    double aspect_ratio = 1.0;     ///< of undeformed grains: discs or ellipses of the same area, 1 to 3
+    std::vector<Disc> clump = {};  ///< of rigid clusters of discs of the same area, in any unit; empty: none
 };
 
 enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_sizes };
@@ -155,6 +157,8 @@ struct Scenario {
     }
     /// True if a class of ellipses is among the classes.
     bool has_ellipses() const;
+    /// True if a class of clumps is among the classes.
+    bool has_clumps() const;
 };
 
 }  // namespace softgrain

@@ -31,6 +31,14 @@ void RigidDem::save(Checkpoint& to) const {
         state.insert(state.end(), {g.x, g.y, g.vx, g.vy, g.spin});
     });
     to.put("state", state);
+    if (clumps_) {
+        std::vector<double> clumps;
+        for (std::size_t g = 0; g < clumps_->size(); ++g) {
+            const ClumpState s = clumps_->state(g);
+            clumps.insert(clumps.end(), {s.x, s.y, s.vx, s.vy, s.spin, s.angle});
+        }
+        to.put("clumps", clumps);
+    }
     std::vector<double> memory, at_walls;
     for (const Block& block : blocks_)
         for (const auto array : memories)
@@ -42,6 +50,20 @@ void RigidDem::save(Checkpoint& to) const {
     to.put("wall_force", std::span<const Vec2>(wall_force_));
     to.put("energy", std::vector<double>{dissipated_.external_work, dissipated_.damping, dissipated_.friction,
                                          dissipated_.adhesion});
+}
+
+/// As save() puts it.
+void RigidDem::remember(const std::vector<double>& memory, const std::vector<double>& at_walls) {
+    auto next = memory.begin();
+    for (Block& block : blocks_)
+        for (const auto array : memories)
+            for (double& one : block.*array) one = *next++;
+    next = at_walls.begin();
+    for (auto& contacts : wall_contacts_)
+        for (WallContact& contact : contacts) {
+            ContactMemory& m = contact.memory;
+            for (double* one : {&m.shear, &m.dashpot, &m.grip, &m.moment, &m.bond}) *one = *next++;
+        }
 }
 
 void RigidDem::load(const Checkpoint& from) {
@@ -79,23 +101,21 @@ void RigidDem::load(const Checkpoint& from) {
         for (double* value : {&g.x, &g.y, &g.vx, &g.vy, &g.spin}) *value = values[next++];
         g.rim_speed = g.spin * g.radius;
     });
+    if (clumps_) {
+        read("clumps", values, 6 * clumps_->size());
+        for (std::size_t g = 0; g < clumps_->size(); ++g) {
+            const double* const s = &values[6 * g];
+            clumps_->set_state(g, {s[0], s[1], s[2], s[3], s[4], s[5]});
+        }
+    }
     std::size_t size = 0;
     for (const Block& block : blocks_)
         for (const auto array : memories) size += (block.*array).size();
-    read("memory", values, size);
-    auto memory = values.begin();
-    for (Block& block : blocks_)
-        for (const auto array : memories)
-            for (double& one : block.*array) one = *memory++;
+    std::vector<double> memory, at_walls;
+    read("memory", memory, size);
     size = 0;
     for (const auto& contacts : wall_contacts_) size += 5 * contacts.size();
-    read("wall_memory", values, size);
-    memory = values.begin();
-    for (auto& contacts : wall_contacts_)
-        for (WallContact& contact : contacts) {
-            ContactMemory& m = contact.memory;
-            for (double* one : {&m.shear, &m.dashpot, &m.grip, &m.moment, &m.bond}) *one = *memory++;
-        }
+    read("wall_memory", at_walls, size);
 
     read("box", values, 4);
     std::copy(values.begin(), values.end(), box_.position.begin());
@@ -105,7 +125,9 @@ void RigidDem::load(const Checkpoint& from) {
     read("walls_velocity", values, 5);
     walls_ = {box_, {values[0], values[1], values[2], values[3]}, values[4]};
     law_.between_grains.sticks = scalars[6];
+    remember(memory, at_walls);
     evaluate_forces(walls_, 0.0);
+    remember(memory, at_walls);  // an evaluation makes 0 of -0
 
     travelled_ = scalars[3];
     frequency2_ = scalars[4];

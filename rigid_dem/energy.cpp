@@ -25,9 +25,7 @@ double stored(const Parameters& law, const ContactMemory& memory, const ContactS
 /// Kinetic energy of velocities half a kick ahead, at the time of the positions.
 EnergyLedger RigidDem::energy() const {
     EnergyLedger ledger = dissipated_;
-    each_grain([&](std::size_t, std::size_t r) {
-        const GrainRecord& g = record_[r];
-        const ForceSum& f = force_[r];
+    each_mover([&](std::size_t, const GrainRecord& g, const ForceSum& f) {
         const double kick = 0.5 * last_dt_ * g.inverse_mass;
         Vec2 v{g.vx + f.fx * kick, g.vy + f.fy * kick};
         if (box_.periodic) v -= walls_.affine_velocity({g.x, g.y});

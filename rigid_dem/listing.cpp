@@ -1,9 +1,12 @@
 // Neighbour list, blocks, and what contacts remember across a new list.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "common/errors.hpp"
 #include "common/space_order.hpp"
 #include "rigid_dem/solver.hpp"
 
@@ -184,6 +187,15 @@ void RigidDem::set_motion(const std::vector<GrainMotion>& motion) {
     }
 }
 
+/// Clumps must not meet their own images, and each other in one image only.
+void RigidDem::require_room_for_clumps() const {
+    const double room = 4.0 * clumps_->largest_reach();
+    if (!box_.periodic || box_.flipped(flips_).spacing() > room) return;
+    throw InputError(fmt::format(
+        "the periodic cell is {:.4g} m across, clumps of this size need {:.4g} m: take more grains",
+        box_.flipped(flips_).spacing(), room));
+}
+
 /// Blocks for grains at rest in spatial order, without memory.
 void RigidDem::list_neighbors(std::vector<Vec2> x) {
     record_ = {};
@@ -192,7 +204,14 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
     reach.reserve(x.size());
     for (const std::uint32_t grain : order_) reach.push_back(reach_of(grain));
     neighbors_.build(std::move(x), std::move(reach), skin_, box_.flipped(flips_));
+    if (clumps_) {
+        require_room_for_clumps();
+        neighbors_.keep_if([&](int i, int j) {
+            return owner(order_[static_cast<std::size_t>(i)]) != owner(order_[static_cast<std::size_t>(j)]);
+        });
+    }
     blocks_ = cut_into_blocks(neighbors_, order_.size());
+    if (clumps_) clumps_->find_discs(order_, blocks_);
     neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
     force_.assign(record_.size(), {});

@@ -14,20 +14,20 @@ Flow RigidDem::flow_of(const WallMotion& walls) const {
 /// A change of the cell's motion moves all grains with it, so that it does not start at the boundary.
 void RigidDem::carry_along(const WallMotion& walls) {
     if (walls.velocity == walls_.velocity && walls.tilt_rate == walls_.tilt_rate) return;
-    each_grain([&](std::size_t, std::size_t r) {
-        const Vec2 x{record_[r].x, record_[r].y};
+    each_mover([&](std::size_t, GrainRecord& mover, const ForceSum&) {
+        const Vec2 x{mover.x, mover.y};
         const Vec2 change = walls.affine_velocity(x) - walls_.affine_velocity(x);
-        record_[r].vx += change.x();
-        record_[r].vy += change.y();
+        mover.vx += change.x();
+        mover.vy += change.y();
     });
+    if (clumps_) clumps_->place_discs(record_);
     walls_ = {box_, walls.velocity, walls.tilt_rate};
     kinetic_tensor_ = kinetic_tensor(last_dt_);
 }
 
 /// Grains go back into the cell; in the other image the flow has another velocity.
 void RigidDem::wrap(const WallMotion& walls) {
-    each_grain([&](std::size_t, std::size_t r) {
-        GrainRecord& g = record_[r];
+    each_mover([&](std::size_t, GrainRecord& g, const ForceSum&) {
         const Image image = walls.box.image_of({g.x, g.y});
         if (image == Image{}) return;
         const Vec2 shift = walls.box.image(image), speed = walls.image_velocity(image);
@@ -36,19 +36,19 @@ void RigidDem::wrap(const WallMotion& walls) {
         g.vx -= speed.x();
         g.vy -= speed.y();
     });
+    if (clumps_) clumps_->place_discs(record_);
 }
 
 /// Velocity at the time of the positions, half a kick later, against the flow of the cell.
-Mat2 RigidDem::kinetic_tensor(double dt) const {
+Mat2 RigidDem::kinetic_tensor(double dt) {
     const Flow flow = flow_of(walls_);
     if (flow.xx == 0.0 && flow.xy == 0.0 && flow.yy == 0.0) return Mat2::Zero();  // nothing works on it
-    std::vector<std::array<double, 3>> parts(blocks_.size());
+    std::vector<std::array<double, 3>> parts(mover_blocks());
 #pragma omp parallel for schedule(static) if (threads())
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        const Block& block = blocks_[b];
+    for (std::size_t b = 0; b < parts.size(); ++b) {
+        const MotionBlock block = movers(b);
         MotionSums sums{};
-        add_kinetic_tensor(&record_[block.first_record], &force_[block.first_record],
-                           static_cast<int>(block.grains), 0.5 * dt, flow, sums);
+        add_kinetic_tensor(block.grain, block.force, block.grains, 0.5 * dt, flow, sums);
         parts[b] = {0.0, 0.0, 0.0};
         for (int l = 0; l < lanes; ++l) {
             parts[b][0] += sums.xx[l];

@@ -38,24 +38,32 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
       uniform_(!law_.hertz && scenario.class_count() == 1),
       box_(packing.box),
       walls_{packing.box, {}, 0.0},
-      radius_(packing.radius),
       thread_choice_(omp_get_max_threads()) {
-    const std::size_t n = packing.size();
+    Packing discs_of_clumps;
+    if (!packing.clumps.empty()) {
+        clumps_ = std::make_unique<Clumps>(scenario, packing);
+        discs_of_clumps = packing_of_discs(packing);
+        law_.rotates = true;
+    }
+    const Packing& discs = clumps_ ? discs_of_clumps : packing;
+    const std::size_t n = discs.size();
+    radius_ = discs.radius;
     smallest_radius_ = *std::min_element(radius_.begin(), radius_.end());
     largest_radius_ = *std::max_element(radius_.begin(), radius_.end());
     for (std::size_t c = 0; c < scenario.class_count(); ++c) material_.push_back(scenario.material_of(c));
     if (material_.size() > 1)
         for (std::size_t g = 0; g < n; ++g)
-            grain_class_.push_back(static_cast<std::uint8_t>(packing.class_of(g)));
-    for (std::size_t g = 0; g < n; ++g) {
+            grain_class_.push_back(static_cast<std::uint8_t>(discs.class_of(g)));
+    for (std::size_t g = 0; g < packing.size(); ++g) {
         const Material& material = scenario.material_of(packing.class_of(g));
-        reference_area_.push_back(std::numbers::pi * radius_[g] * radius_[g]);
-        mass_.push_back(material.density * reference_area_.back());
-        mean_modulus_ += material.youngs_modulus / static_cast<double>(n);
+        reference_area_.push_back(std::numbers::pi * packing.radius[g] * packing.radius[g]);
+        if (!clumps_) mass_.push_back(material.density * reference_area_.back());
+        mean_modulus_ += material.youngs_modulus / static_cast<double>(packing.size());
     }
+    for (std::size_t d = 0; clumps_ && d < n; ++d) mass_.push_back(clumps_->mass_at(d));
     std::vector<Vec2> x;
-    for (const int g : space_order(packing.center, sorting_cell())) {
-        x.push_back(packing.center[static_cast<std::size_t>(g)]);
+    for (const int g : space_order(discs.center, sorting_cell())) {
+        x.push_back(discs.center[static_cast<std::size_t>(g)]);
         order_.push_back(static_cast<std::uint32_t>(g));
     }
     if (material_.size() == 1) mean_modulus_ = material_[0].youngs_modulus;
@@ -103,16 +111,30 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
     if (radius_.size() > worth_threads) thread_choice_.note(omp_get_wtime() - began);
 }
 
+/// Blocks of what moves: grains, or clumps.
+std::size_t RigidDem::mover_blocks() const {
+    return clumps_ ? (clumps_->size() + grains_per_block - 1) / grains_per_block : blocks_.size();
+}
+
+MotionBlock RigidDem::movers(std::size_t b) {
+    if (!clumps_) {
+        const Block& block = blocks_[b];
+        return {&record_[block.first_record], &force_[block.first_record], static_cast<int>(block.grains),
+                law_.nonviscous_damping, law_.rotates};
+    }
+    const std::size_t first = b * grains_per_block,
+                      count = std::min(grains_per_block, clumps_->size() - first);
+    return {&clumps_->bodies()[first], &clumps_->forces()[first], static_cast<int>(count),
+            law_.nonviscous_damping, law_.rotates};
+}
+
 void RigidDem::move(const WallMotion& walls, double dt) {
     const Flow flow = flow_of(walls);
-    std::vector<std::pair<double, double>> totals(blocks_.size());  // squared speed, work
+    std::vector<std::pair<double, double>> totals(mover_blocks());  // squared speed, work
 #pragma omp parallel for schedule(static) if (threads())
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        const Block& block = blocks_[b];
+    for (std::size_t b = 0; b < totals.size(); ++b) {
         MotionSums sums{};
-        kick_and_drift({&record_[block.first_record], &force_[block.first_record],
-                        static_cast<int>(block.grains), law_.nonviscous_damping, law_.rotates},
-                       dt, flow, sums);
+        kick_and_drift(movers(b), dt, flow, sums);
         totals[b] = {largest(sums.speed2), sum(sums.work)};
         for (const double one : sums.speed2)
             if (std::isnan(one)) totals[b].first = one;
@@ -123,6 +145,7 @@ void RigidDem::move(const WallMotion& walls, double dt) {
         dissipated_.damping += work;
         if (std::isnan(fastest2_)) break;
     }
+    if (clumps_) fastest2_ = clumps_->turn(dt, flow, record_, threads());
     travelled_ += std::sqrt(fastest2_) * dt;
     if (!(fastest2_ * dt * dt < smallest_radius_ * smallest_radius_)) throw_too_fast(walls, dt);
 }
@@ -134,7 +157,7 @@ void RigidDem::throw_too_fast(const WallMotion& walls, double dt) const {
         const Vec2 v{g.vx, g.vy}, x{g.x, g.y};
         const double moved = (box_.periodic ? Vec2(v - walls.affine_velocity(x)) : v).norm() * dt;
         if (!(moved < g.radius))
-            throw DivergedError(static_cast<int>(grain), "velocity", time_,
+            throw DivergedError(static_cast<int>(owner(grain)), "velocity", time_,
                                 fmt::format("it moves {:.3g} radii in one step", moved / g.radius));
     });
 }
@@ -158,6 +181,8 @@ void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
         all.overlap = std::max(all.overlap, one.overlap);
         for (std::size_t w = 0; w < 4; ++w) all.wall_force[w] += one.wall_force[w];
     }
+    // From the branch between discs to that between clumps.
+    if (clumps_) all.virial += clumps_->gather(record_, force_, threads());
     cell_virial_ = -all.virial;
     wall_force_ = all.wall_force;
     largest_overlap_ = all.overlap;
@@ -234,13 +259,13 @@ std::optional<std::string> RigidDem::outside_validity() const {
     const auto look = [&](std::size_t grain, const auto& partner, double overlap, double radius) {
         if (found || overlap <= law_.overlap_limit * radius) return;
         found = fmt::format("overlap of grain {} and {} is {:.3f} of the smaller radius (overlap_limit {})",
-                            grain, partner(), overlap / radius, law_.overlap_limit);
+                            owner(grain), partner(), overlap / radius, law_.overlap_limit);
     };
     for (const Block& block : blocks_)
         each_pair(block, [&](std::size_t i, std::size_t j, std::size_t pair) {
             look(
-                std::min(i, j), [&] { return fmt::format("grain {}", std::max(i, j)); }, overlap(block, pair),
-                std::min(radius_[i], radius_[j]));
+                std::min(i, j), [&] { return fmt::format("grain {}", owner(std::max(i, j))); },
+                overlap(block, pair), std::min(radius_[i], radius_[j]));
         });
     if (found || box_.periodic) return found;
     each_grain([&](std::size_t grain, std::size_t r) {
@@ -256,7 +281,7 @@ void RigidDem::check_finite() const {
     each_grain([&](std::size_t grain, std::size_t r) {
         const auto check = [&](const char* what, auto... values) {
             if (!(std::isfinite(values) && ...))
-                throw DivergedError(static_cast<int>(grain), what, time_, "not a finite number");
+                throw DivergedError(static_cast<int>(owner(grain)), what, time_, "not a finite number");
         };
         const GrainRecord& g = record_[r];
         const ForceSum& f = force_[r];
@@ -267,9 +292,13 @@ void RigidDem::check_finite() const {
 }
 
 void RigidDem::set_velocity(std::span<const Vec2> velocity, std::span<const double> spin) {
-    std::vector<GrainMotion> motion;
-    for (const std::uint32_t g : order_) motion.push_back({velocity[g].x(), velocity[g].y(), spin[g]});
-    set_motion(motion);
+    each_mover([&](std::size_t g, GrainRecord& mover, const ForceSum&) {
+        mover.vx = velocity[g].x();
+        mover.vy = velocity[g].y();
+        mover.spin = spin[g];
+        mover.rim_speed = mover.spin * mover.radius;
+    });
+    if (clumps_) clumps_->place_discs(record_);
     last_dt_ = 0.0;
     evaluate_forces(walls_, 0.0);
 }

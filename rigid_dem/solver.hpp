@@ -1,13 +1,17 @@
 #pragma once
 // Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
 // solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability
-// limit. periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
+// limit. periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say. With clumps, everything here
+// counts discs, and what moves and what the view tells are the clumps (clumps.hpp).
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "common/neighbors.hpp"
 #include "common/solver.hpp"
 #include "common/thread_choice.hpp"
 #include "rigid_dem/blocks.hpp"
+#include "rigid_dem/clumps.hpp"
 #include "rigid_dem/motion_kernel.hpp"
 #include "rigid_dem/parameters.hpp"
 #include "rigid_dem/wall_contacts.hpp"
@@ -33,6 +37,8 @@ class RigidDem final : public Solver {
     void set_velocity(std::span<const Vec2> velocity, std::span<const double> spin);
     /// [n] [1/s].
     std::span<const double> spin();
+    /// What contacts see: the grains, or the discs of clumps, those of grain 0 first.
+    std::vector<Disc> discs() const;
     /// Neighbour lists made so far.
     int listings() const { return listings_; }
 
@@ -49,11 +55,14 @@ class RigidDem final : public Solver {
     void collect_arrivals(const Block& block);
     void throw_too_fast(const WallMotion& walls, double dt) const;
     bool threads() const;
+    std::size_t mover_blocks() const;
+    MotionBlock movers(std::size_t block);
 
     // neighbours and blocks
     bool list_is_stale();
     void list_again();
     void list_neighbors(std::vector<Vec2> x);
+    void require_room_for_clumps() const;
     void set_motion(const std::vector<GrainMotion>& motion);
     std::vector<int> places_in_space() const;
     double sorting_cell() const;
@@ -63,29 +72,33 @@ class RigidDem final : public Solver {
     ContactBook open_book() const;
     bool forgets(const Block& block, std::size_t pair) const;
     void copy_memory(const ContactBook& book, std::size_t block);
+    void remember(const std::vector<double>& memory, const std::vector<double>& at_walls);
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
 
     // time step
     void find_frequency();
+    double frequency2_of_clumps() const;
     void sum_stiffness(std::size_t block, StiffnessSum* stiffness) const;
-    double stiffness_soon(std::size_t grain) const;
+    double stiffness_soon(std::size_t grain, double mass) const;
     double tangent_stiffness(double k, double overlap) const;
 
     // periodic cell
     Flow flow_of(const WallMotion& walls) const;
     void carry_along(const WallMotion& walls);
     void wrap(const WallMotion& walls);
-    Mat2 kinetic_tensor(double dt) const;
+    Mat2 kinetic_tensor(double dt);
 
     // energy
     EnergyLedger energy() const;
 
     // view
     void sort_by_grain();
+    Vec2 home_of(std::size_t disc) const;
     void measure_area();
     void list_contacts();
+    void name_clumps();
     void measure_stress();
     void draw_outlines();
 
@@ -95,6 +108,13 @@ class RigidDem final : public Solver {
     /// visit(grain, record) in spatial order.
     template <class Visit>
     void each_grain(const Visit& visit) const;
+    /// visit(grain, record, force) for all that move: grains in spatial order, or clumps by number.
+    template <class Visit>
+    void each_mover(const Visit& visit) const;
+    template <class Visit>
+    void each_mover(const Visit& visit);
+    /// Number in the view.
+    std::size_t owner(std::size_t grain) const { return clumps_ ? clumps_->owner(grain) : grain; }
     const GrainRecord& record(const Block& block, std::size_t local) const {
         return record_[block.first_record + local];
     }
@@ -118,8 +138,11 @@ class RigidDem final : public Solver {
     double time_ = 0.0, last_dt_ = 0.0;
     double mean_modulus_ = 0.0;
 
-    // grains by number [n]
-    std::vector<double> radius_, mass_, reference_area_;
+    std::unique_ptr<Clumps> clumps_;  ///< null if all grains are discs
+
+    // grains by number [n], or their discs
+    std::vector<double> radius_, mass_;   ///< of a disc of a clump: the mass that contacts see
+    std::vector<double> reference_area_;  ///< of grains
     double smallest_radius_ = 0.0, largest_radius_ = 0.0;  ///< [m]
     std::vector<std::uint8_t> grain_class_;                ///< empty if there is one
     std::vector<Material> material_;                       ///< by class
@@ -177,6 +200,24 @@ void RigidDem::each_pair(const Block& block, const Visit& visit) const {
         const std::size_t i = block.pairs[k].i, j = block.pairs[k].j;
         visit(grain_of(i), grain_of(j), k);
     }
+}
+
+template <class Visit>
+void RigidDem::each_mover(const Visit& visit) const {
+    if (clumps_)
+        for (std::size_t g = 0; g < clumps_->size(); ++g)
+            visit(g, std::as_const(*clumps_).bodies()[g], clumps_->forces()[g]);
+    else
+        each_grain([&](std::size_t grain, std::size_t r) { visit(grain, record_[r], force_[r]); });
+}
+
+template <class Visit>
+void RigidDem::each_mover(const Visit& visit) {
+    if (clumps_)
+        for (std::size_t g = 0; g < clumps_->size(); ++g)
+            visit(g, clumps_->bodies()[g], clumps_->forces()[g]);
+    else
+        each_grain([&](std::size_t grain, std::size_t r) { visit(grain, record_[r], force_[r]); });
 }
 
 template <class Visit>

@@ -58,13 +58,19 @@ double RigidDem::stable_time_step() const {
 /// Bound on omega^2 of all grains, for the contacts they have and two that each may have soon.
 void RigidDem::find_frequency() {
     steps_measured_ = 0;
+    if (clumps_) {
+        frequency2_ = frequency2_of_clumps();
+        return;
+    }
     const auto stiffness = std::make_unique_for_overwrite<StiffnessSum[]>(record_.size());
     std::vector<double> largest(blocks_.size());
     double shear_ratio = 0.0;
     for (const Block& block : blocks_)
-        if (law_.rotates)
+        if (law_.rotates && !block.shear_ratio.empty())
             shear_ratio =
                 std::max(shear_ratio, *std::max_element(block.shear_ratio.begin(), block.shear_ratio.end()));
+    if (law_.rotates && shear_ratio == 0.0)
+        shear_ratio = stiffness_at_wall(law_, elasticity_of(0)).shear_ratio;
     const FrequencyBound bound(shear_ratio, law_.between_grains.rolling_stiffness);
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) sum_stiffness(b, stiffness.get());
@@ -79,7 +85,8 @@ void RigidDem::find_frequency() {
         for (std::size_t g = 0; g < block.grains; ++g) {
             const StiffnessSum& own = stiffness[block.first_record + g];
             const double per_mass = record(block, g).inverse_mass;
-            const double soon = 2.0 * stiffness_soon(order_[block.first_grain + g]);
+            const double soon =
+                2.0 * stiffness_soon(order_[block.first_grain + g], mass_[order_[block.first_grain + g]]);
             largest[b] = std::max(
                 {largest[b], bound(own.xx, own.xy, own.yy, per_mass), bound(soon, 0.0, 0.0, per_mass)});
         }
@@ -93,7 +100,7 @@ double RigidDem::tangent_stiffness(double k, double overlap) const {
 
 /// Of a contact that the grain may have before the next look [N/m]; of Hertz's law after an impact as fast as
 /// two of the fastest grains meet, or at least_overlap: without any contact there is no stiffness.
-double RigidDem::stiffness_soon(std::size_t grain) const {
+double RigidDem::stiffness_soon(std::size_t grain, double mass) const {
     const GrainElasticity own = elasticity_of(grain);
     if (!law_.hertz) {
         double largest = 0.0;
@@ -101,7 +108,7 @@ double RigidDem::stiffness_soon(std::size_t grain) const {
         return in_series(law_.stiffness * own.modulus, law_.stiffness * largest);
     }
     const double k = stiffness_at_wall(law_, own).k;
-    const double impact = std::pow(1.25 * mass_[grain] * 4.0 * fastest2_ / k, 0.4);
+    const double impact = std::pow(1.25 * mass * 4.0 * fastest2_ / k, 0.4);
     return Hertz::stiffness(k, std::max(impact, least_overlap * own.radius));
 }
 

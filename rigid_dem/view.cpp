@@ -25,7 +25,7 @@ GrainView RigidDem::view(Need need) {
     view.box = box_;
     view.centroid = x_;
     view.velocity = v_;
-    view.mass = mass_;
+    view.mass = clumps_ ? clumps_->mass() : std::span<const double>(mass_);
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy();
@@ -48,8 +48,10 @@ GrainView RigidDem::view(Need need) {
         view.outline_point = outline_point_;
     }
     if (wants(need, Need::fields)) {
-        view.fields.push_back({"radius", "m", 1, radius_});
+        view.fields.push_back(
+            {"radius", "m", 1, clumps_ ? clumps_->radius() : std::span<const double>(radius_)});
         view.fields.push_back({"spin", "1/s", 1, spin_});
+        if (clumps_) view.fields.push_back({"angle", "rad", 1, clumps_->angles()});
     }
     return view;
 }
@@ -59,18 +61,32 @@ std::span<const double> RigidDem::spin() {
     return spin_;
 }
 
+std::vector<Disc> RigidDem::discs() const {
+    std::vector<Disc> all(radius_.size());
+    each_grain([&](std::size_t grain, std::size_t r) {
+        all[grain] = {Vec2{record_[r].x, record_[r].y}, record_[r].radius};
+    });
+    return all;
+}
+
 /// From spatial order to the grains' own.
 void RigidDem::sort_by_grain() {
-    const std::size_t n = radius_.size();
+    const std::size_t n = reference_area_.size();
     x_.resize(n);
     v_.resize(n);
     spin_.resize(n);
-    each_grain([&](std::size_t grain, std::size_t r) {
-        const GrainRecord& g = record_[r];
+    each_mover([&](std::size_t grain, const GrainRecord& g, const ForceSum&) {
         x_[grain] = {g.x, g.y};
         v_[grain] = {g.vx, g.vy};
         spin_[grain] = g.spin;
     });
+}
+
+/// Where a disc is, not in any other image.
+Vec2 RigidDem::home_of(std::size_t disc) const {
+    if (!clumps_) return x_[disc];
+    const GrainRecord& home = record_[clumps_->record_of(disc)];
+    return {home.x, home.y};
 }
 
 double RigidDem::overlap(const Block& block, std::size_t pair) const {
@@ -97,13 +113,14 @@ void RigidDem::measure_area() {
             if (into <= 0.0) return;
             const double d = radius_[i] + radius_[j] - into;
             const double h = 0.5 * (d + (radius_[i] * radius_[i] - radius_[j] * radius_[j]) / d);
-            area_[i] -= cap_area(radius_[i], h);
-            area_[j] -= cap_area(radius_[j], d - h);
+            area_[owner(i)] -= cap_area(radius_[i], h);
+            area_[owner(j)] -= cap_area(radius_[j], d - h);
         });
         for (const WallContact& contact : wall_contacts_[b]) {
             const GrainRecord& g = record_[contact.record];
             const double into = wall_overlap(g, contact.wall, box_);
-            if (into > 0.0) area_[grain_of(blocks_[b], contact)] -= cap_area(g.radius, g.radius - into);
+            if (into > 0.0)
+                area_[owner(grain_of(blocks_[b], contact))] -= cap_area(g.radius, g.radius - into);
         }
     }
     covered_area_ = 0.0;
@@ -126,7 +143,7 @@ void RigidDem::list_contacts() {
             const ContactForce answer = pair_force(block, pair);
             const Vec2 force = answer.shear * perpendicular(n) - answer.normal * n;
             const std::size_t first = std::min(i, j);
-            const Vec2 at = x_[first] + (radius_[first] - 0.5 * into) * n;
+            const Vec2 at = home_of(first) + (radius_[first] - 0.5 * into) * n;
             contacts_.push_back(
                 {static_cast<int>(first), static_cast<int>(std::max(i, j)), at, n, force, 0.0});
         });
@@ -142,6 +159,18 @@ void RigidDem::list_contacts() {
         }
     }
     std::sort(contacts_.begin(), contacts_.end(), [](const GrainContact& a, const GrainContact& b) {
+        return std::pair(a.i, a.j) < std::pair(b.i, b.j);
+    });
+    if (clumps_) name_clumps();
+}
+
+/// Contacts of discs become those of their clumps. Discs are numbered by clump, so that i stays the first.
+void RigidDem::name_clumps() {
+    for (GrainContact& c : contacts_) {
+        c.i = static_cast<int>(owner(static_cast<std::size_t>(c.i)));
+        if (!c.with_wall()) c.j = static_cast<int>(owner(static_cast<std::size_t>(c.j)));
+    }
+    std::stable_sort(contacts_.begin(), contacts_.end(), [](const GrainContact& a, const GrainContact& b) {
         return std::pair(a.i, a.j) < std::pair(b.i, b.j);
     });
 }
@@ -187,7 +216,11 @@ void RigidDem::draw_outlines() {
     outline_point_.clear();
     outline_offset_.push_back(0);
     for (std::size_t i = 0; i < x_.size(); ++i) {
-        for (int p = 0; p < outline_nodes; ++p) {
+        if (clumps_) {
+            const std::vector<Vec2> outline = clumps_->outline(i);
+            outline_point_.insert(outline_point_.end(), outline.begin(), outline.end());
+        }
+        for (int p = 0; !clumps_ && p < outline_nodes; ++p) {
             const double angle = 2.0 * std::numbers::pi * p / outline_nodes;
             outline_point_.push_back(x_[i] + radius_[i] * Vec2{std::cos(angle), std::sin(angle)});
         }

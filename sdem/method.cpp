@@ -127,7 +127,12 @@ GrainMaterial grain_material(const Material& material, const Settings& settings,
     return m;
 }
 
+constexpr std::array refusals{
+    Refusal{Feature::clumps, "its grains are discs or ellipses"},
+};
+
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
+    refuse(scenario, packing, "sdem", refusals);
     if (packing.size() == 0)
         throw InputError("sdem: the packing has no grain; give packing.path or packing.count");
     const auto table = scenario.method_settings.find("sdem");
@@ -203,8 +208,10 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 }  // namespace
 
 const Method& method() {
-    static const Method row{"sdem", "SDEM: soft discs with six degrees of freedom (Mollon 2022)", keys, make,
-                            "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
+    static const Method row{
+        "sdem",  "SDEM: soft discs with six degrees of freedom (Mollon 2022)",        keys,
+        make,    "contact_penetration, contact_sweeps, unconverged_steps, fragments", nullptr,
+        refusals};
     return row;
 }
 

@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/io/measure_files.hpp"
 #include "common/io/scenario_checks.hpp"
+#include "common/io/scenario_clumps.hpp"
 #include "common/io/scenario_document.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_overrides.hpp"
@@ -33,13 +34,15 @@ Material material_of(const Settings& s) {
             optional_number(s, "yield_stress")};
 }
 
-GrainClass class_of(const Settings& s, const Material& material) {
+GrainClass class_of(const CheckedTable& table, const Material& material, ErrorList& errors) {
+    const Settings& s = table.settings;
     GrainClass grain_class{s.text("name"), s.number("share"), material, s.number("aspect_ratio")};
     Material& own = grain_class.material;
     own.youngs_modulus = optional_number(s, "youngs_modulus").value_or(material.youngs_modulus);
     own.poisson_ratio = optional_number(s, "poisson_ratio").value_or(material.poisson_ratio);
     own.density = optional_number(s, "density").value_or(material.density);
     if (s.has("yield_stress")) own.yield_stress = s.number("yield_stress");
+    grain_class.clump = clump_of(table, errors);
     return grain_class;
 }
 
@@ -89,7 +92,7 @@ class Reader {
         scenario.seed = static_cast<std::uint64_t>(table("random").settings.integer("seed"));
         scenario.material = material_of(table("material").settings);
         for (const CheckedTable& one : repeated("grain_class", most_classes))
-            scenario.classes.push_back(class_of(one.settings, scenario.material));
+            scenario.classes.push_back(class_of(one, scenario.material, errors_));
         const CheckedTable packing = table("packing");
         const CheckedTable box = table("box");
         const std::filesystem::path folder = source_.parent_path();

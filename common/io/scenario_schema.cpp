@@ -55,6 +55,14 @@ const std::vector<KeySpec> class_keys{
      "long / short axis of ellipses of the area of the disc; a generator puts each at a random angle inside "
      "a disc of its long axis, and packs those discs",
      Range{1.0, most_elongated}},
+    {"clump", text, Value(), "",
+     "rigid clusters of discs of the area of the disc, in any unit: \"x y r, x y r\"; put at a random angle "
+     "inside "
+     "the disc around them, as ellipses"},
+    {"clump_discs", integer, Value(), "", "instead of clump: this many equal discs in a line",
+     Range{2.0, static_cast<double>(most_discs_of_a_clump)}},
+    {"clump_elongation", number, Value(), "",
+     "length / width of the line of clump_discs; by itself they lie a radius apart", positive},
 };
 
 const std::vector<KeySpec> packing_keys{

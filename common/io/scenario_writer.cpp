@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/scenario_clumps.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
 #include "common/io/scenario_stages.hpp"
@@ -74,6 +75,7 @@ Settings settings_of(const GrainClass& c) {
     s.set("density", c.material.density);
     set_optional(s, "yield_stress", c.material.yield_stress);
     s.set("aspect_ratio", c.aspect_ratio);
+    if (!c.clump.empty()) s.set("clump", clump_text(c.clump));
     return s;
 }
 

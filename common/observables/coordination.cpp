@@ -35,7 +35,12 @@ Coordination coordination(const GrainView& view) {
     std::vector<int> touching(n, 0);
     std::vector<Pair> pairs;
     int wall_contacts = 0;
+    const GrainContact* before = nullptr;
     for (const GrainContact& c : view.contacts) {
+        // Clumps may touch in several places, which then stand one after the other.
+        const bool again = before != nullptr && before->i == c.i && before->j == c.j;
+        before = &c;
+        if (again) continue;
         ++touching[static_cast<std::size_t>(c.i)];
         if (c.with_wall()) {
             ++wall_contacts;

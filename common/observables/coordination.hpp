@@ -4,8 +4,8 @@
 
 namespace softgrain {
 
-/// PHYSICS conventions: Z = 2 N_gg / N; a rattler has fewer than 2 contacts (walls count), removed
-/// repeatedly.
+/// PHYSICS conventions: Z = 2 N_gg / N, N_gg pairs of grains in however many places they touch; a rattler has
+/// fewer than 2 contacts (walls count), removed repeatedly.
 struct Coordination {
     double all;               ///< 2 N_gg / N over all grains
     double without_rattlers;  ///< the same over grains that carry load; 0 if there are none

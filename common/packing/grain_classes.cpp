@@ -56,11 +56,32 @@ std::vector<double> aspect_ratios(const Scenario& scenario, const std::vector<st
     return ratios;
 }
 
+std::vector<ClumpShape> clump_shapes(const Scenario& scenario) {
+    if (!scenario.has_clumps()) return {};
+    static const Disc whole{Vec2::Zero(), 1.0};
+    std::vector<ClumpShape> shapes;
+    for (const GrainClass& c : scenario.classes)
+        shapes.push_back(clump_shape(c.clump.empty() ? std::span(&whole, 1) : std::span(c.clump)));
+    return shapes;
+}
+
 std::vector<double> draw_angles(const Scenario& scenario, std::size_t grains) {
     Random random(scenario.seed ^ angle_stream);
+    const double most = (scenario.has_clumps() ? 2.0 : 1.0) * std::numbers::pi;
     std::vector<double> angles(grains);
-    std::generate(angles.begin(), angles.end(), [&] { return random.between(0.0, std::numbers::pi); });
+    std::generate(angles.begin(), angles.end(), [&] { return random.between(0.0, most); });
     return angles;
+}
+
+std::vector<double> elongations(const Packing& packing) {
+    std::vector<double> elongation = packing.aspect_ratio;
+    if (packing.clumps.empty()) return elongation;
+    elongation.resize(packing.radius.size(), 1.0);
+    for (std::size_t g = 0; g < elongation.size(); ++g) {
+        const double reach = packing.clumps[packing.class_of(g)].reach;
+        elongation[g] = std::max(elongation[g], reach * reach);
+    }
+    return elongation;
 }
 
 std::vector<double> radii_of_discs_around(const std::vector<double>& radii,

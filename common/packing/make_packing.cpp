@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/packing/generators.hpp"
@@ -25,7 +26,10 @@ Packing from_file(const Scenario& scenario) {
     if (!box.width || !box.height) throw InputError("packing.path needs box.width and box.height");
     const std::filesystem::path& path = *scenario.packing.path;
     Packing packing = read_packing_csv(path, Box{{0.0, *box.width, 0.0, *box.height}, box.periodic},
-                                       scenario.class_count());
+                                       scenario.class_count(), clump_shapes(scenario));
+    if (scenario.has_clumps() && packing.angle.empty())
+        throw InputError(
+            fmt::format("{}: grain_class.clump needs a column angle in a packing file", path.string()));
     if (scenario.has_ellipses() && packing.aspect_ratio.empty())
         throw InputError(
             fmt::format("{}: grain_class.aspect_ratio needs columns aspect_ratio and angle in a "
@@ -42,19 +46,24 @@ Packing make_packing(const Scenario& scenario) {
     const BoxSpec& box = scenario.box;
     const bool sized = box.width && box.height;
     Random random(scenario.seed);
-    const std::vector<double> radii = draw_radii(scenario.packing, random);
-    const std::vector<std::uint8_t> classes = draw_classes(scenario, radii.size());
-    const std::vector<double> elongation = aspect_ratios(scenario, classes, radii.size());
+    Packing shapes;
+    shapes.radius = draw_radii(scenario.packing, random);
+    const std::size_t n = shapes.radius.size();
+    shapes.grain_class = draw_classes(scenario, n);
+    shapes.aspect_ratio = aspect_ratios(scenario, shapes.grain_class, n);
+    shapes.clumps = clump_shapes(scenario);
+    const std::vector<double> elongation = elongations(shapes);
+    if (!elongation.empty()) shapes.angle = draw_angles(scenario, n);
     const PackingRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
                                  .packing_fraction = scenario.packing.packing_fraction,
                                  .periodic = box.periodic,
-                                 .grain_share = share_of_discs_around(radii, elongation)};
-    Packing packing =
-        generate(scenario.packing.generator, radii_of_discs_around(radii, elongation), request, random);
-    packing.radius = radii;
-    packing.grain_class = classes;
-    packing.aspect_ratio = elongation;
-    if (!elongation.empty()) packing.angle = draw_angles(scenario, radii.size());
+                                 .grain_share = share_of_discs_around(shapes.radius, elongation)};
+    const Packing discs = generate(scenario.packing.generator,
+                                   radii_of_discs_around(shapes.radius, elongation), request, random);
+    Packing packing = std::move(shapes);
+    packing.box = discs.box;
+    packing.center = discs.center;
+    packing.frame = discs.frame;
     if (sized) scale_to(packing, *box.width, *box.height);
     return packing;
 }

@@ -1,6 +1,8 @@
 #include "common/packing/overlap.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace softgrain {
 
@@ -37,6 +39,16 @@ double touching_scale(const Mat2& shape_i, const Mat2& shape_j, const Vec2& bran
 double relative_overlap(const Packing& packing, std::size_t i, std::size_t j) {
     const Vec2 direct = packing.center[j] - packing.center[i];
     const Vec2 branch = packing.box.periodic ? packing.box.nearest(direct) : direct;
+    if (!packing.clumps.empty()) {
+        double deepest = -std::numeric_limits<double>::infinity();
+        const Vec2 shift = branch - direct;
+        for (const Disc& a : packing.discs_of(i))
+            for (const Disc& b : packing.discs_of(j)) {
+                const double sum = a.radius + b.radius;
+                deepest = std::max(deepest, (sum - (b.center + shift - a.center).norm()) / sum);
+            }
+        return deepest;
+    }
     if (!packing.aspect_ratio.empty())
         return 1.0 - touching_scale(packing.shape_of(i), packing.shape_of(j), branch);
     const double sum = packing.radius[i] + packing.radius[j];

@@ -11,7 +11,8 @@ namespace softgrain {
 /// `branch` from i to j [m].
 double touching_scale(const Mat2& shape_i, const Mat2& shape_j, const Vec2& branch);
 
-/// 1 - touching_scale, of discs (r_i + r_j - distance) / (r_i + r_j). By the nearest image in a periodic box.
+/// 1 - touching_scale, of discs (r_i + r_j - distance) / (r_i + r_j), of clumps the largest of their discs.
+/// By the nearest image in a periodic box.
 double relative_overlap(const Packing& packing, std::size_t i, std::size_t j);
 
 }  // namespace softgrain

@@ -1,5 +1,6 @@
 #include "common/packing/packing.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +12,20 @@ Vec2 Packing::half_axes(std::size_t grain) const {
     if (aspect_ratio.empty()) return Vec2::Constant(radius[grain]);
     const double root = std::sqrt(aspect_ratio[grain]);
     return {radius[grain] * root, radius[grain] / root};
+}
+
+double Packing::reach(std::size_t grain) const {
+    const double longest = half_axes(grain).x();
+    return clumps.empty() ? longest : std::max(longest, radius[grain] * clumps[class_of(grain)].reach);
+}
+
+std::vector<Disc> Packing::discs_of(std::size_t grain) const {
+    if (clumps.empty()) return {{center[grain], radius[grain]}};
+    std::vector<Disc> discs = clumps[class_of(grain)].discs;
+    const Mat2 turn = Eigen::Rotation2Dd(angle[grain]).toRotationMatrix();
+    for (Disc& disc : discs)
+        disc = {center[grain] + radius[grain] * (turn * disc.center), radius[grain] * disc.radius};
+    return discs;
 }
 
 Mat2 Packing::shape_of(std::size_t grain) const {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
@@ -32,8 +33,11 @@ std::string_view trimmed(std::string_view text) {
 
 class Reader {
   public:
-    Reader(const std::filesystem::path& path, const Box& box, std::size_t classes)
-        : path_(path), box_(box), classes_(classes) {}
+    Reader(const std::filesystem::path& path, const Box& box, std::size_t classes,
+           std::vector<ClumpShape> clumps)
+        : path_(path), box_(box), classes_(classes) {
+        packing_.clumps = std::move(clumps);
+    }
 
     Packing read() {
         std::ifstream file(path_);
@@ -84,8 +88,13 @@ class Reader {
             if (column(names[k])) fail(line_, fmt::format("column '{}' stands twice", names[k]));
             columns_.emplace_back(names[k]);
         }
-        if (column("aspect_ratio").has_value() != column("angle").has_value())
+        if (!packing_.clumps.empty()) {
+            if (!column("angle") || (classes_ > 1 && !column("class")))
+                fail(line_,
+                     "with grain_class.clump a column angle is needed, and class if there are several");
+        } else if (column("aspect_ratio").has_value() != column("angle").has_value()) {
             fail(line_, "columns aspect_ratio and angle need each other");
+        }
     }
 
     std::optional<std::size_t> column(std::string_view name) const {
@@ -137,8 +146,8 @@ class Reader {
                 fail(line_,
                      fmt::format("aspect_ratio must be >= 1 and <= {}, got {}", most_elongated, value[*k]));
             packing_.aspect_ratio.push_back(value[*k]);
-            packing_.angle.push_back(value[column("angle").value()]);
         }
+        if (const auto k = column("angle")) packing_.angle.push_back(value[*k]);
         box_.periodic ? wrap_last() : check_walls();
     }
 
@@ -163,10 +172,14 @@ class Reader {
     void check_walls() const {
         const std::size_t g = packing_.size() - 1;
         const Mat2 shape = packing_.shape_of(g);
+        const std::vector<Disc> discs = packing_.discs_of(g);
         for (int wall = 0; wall < 4; ++wall) {
-            const double reach =
-                packing_.aspect_ratio.empty() ? packing_.radius[g] : shape.row(wall_axis(wall)).norm();
-            const double beyond = reach - box_.distance(wall, packing_.center[g]);
+            double beyond = -box_.width();
+            for (const Disc& disc : discs) {
+                const double reach =
+                    packing_.aspect_ratio.empty() ? disc.radius : shape.row(wall_axis(wall)).norm();
+                beyond = std::max(beyond, reach - box_.distance(wall, disc.center));
+            }
             if (beyond > tolerated_overlap * packing_.radius[g])
                 fail(line_, fmt::format("the {} reaches {:.6g} m beyond the {} wall of the box "
                                         "0 <= x <= {}, 0 <= y <= {}: check box.width and box.height",
@@ -175,7 +188,9 @@ class Reader {
         }
     }
 
-    std::string_view grain_word() const { return packing_.aspect_ratio.empty() ? "disc" : "ellipse"; }
+    std::string_view grain_word() const {
+        return !packing_.clumps.empty() ? "grain" : packing_.aspect_ratio.empty() ? "disc" : "ellipse";
+    }
 
     void check_overlaps() const {
         std::vector<double> reach;
@@ -205,20 +220,24 @@ class Reader {
 
 }  // namespace
 
-Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes) {
-    return Reader(path, box, classes).read();
+Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes,
+                         std::vector<ClumpShape> clumps) {
+    return Reader(path, box, classes, std::move(clumps)).read();
 }
 
 void write_packing_csv(const std::filesystem::path& path, const Packing& packing) {
-    const bool has_classes = !packing.grain_class.empty(), has_ellipses = !packing.aspect_ratio.empty();
-    std::string text = fmt::format("# box.width = {}, box.height = {}{}\nx,y,r{}{}\n", packing.box.width(),
+    const bool has_classes = !packing.grain_class.empty(), has_ellipses = !packing.aspect_ratio.empty(),
+               has_angles = !packing.angle.empty();
+    std::string text = fmt::format("# box.width = {}, box.height = {}{}\nx,y,r{}{}{}\n", packing.box.width(),
                                    packing.box.height(), packing.box.periodic ? ", box.periodic = true" : "",
-                                   has_classes ? ",class" : "", has_ellipses ? ",aspect_ratio,angle" : "");
+                                   has_classes ? ",class" : "", has_ellipses ? ",aspect_ratio" : "",
+                                   has_angles ? ",angle" : "");
     for (std::size_t k = 0; k < packing.size(); ++k) {
         text += fmt::format("{},{},{}", packing.center[k].x() - packing.box.position[0],
                             packing.center[k].y() - packing.box.position[2], packing.radius[k]);
         if (has_classes) text += fmt::format(",{}", packing.grain_class[k]);
-        if (has_ellipses) text += fmt::format(",{},{}", packing.aspect_ratio[k], packing.angle[k]);
+        if (has_ellipses) text += fmt::format(",{}", packing.aspect_ratio[k]);
+        if (has_angles) text += fmt::format(",{}", packing.angle[k]);
         text += '\n';
     }
     std::ofstream file(path, std::ios::binary);

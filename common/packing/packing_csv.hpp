@@ -12,9 +12,10 @@ inline constexpr double tolerated_overlap = 0.01;
 
 /// Header "x,y,r", then one grain a line; lines that start with # are comments. More columns by their names,
 /// in any order: class (of 0 to classes - 1), aspect_ratio with angle (r is then that of the disc of the same
-/// area). The grains lie in `box`; centres outside a periodic one are wrapped. Throws InputError naming file
-/// and line.
-Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes = 1);
+/// area), angle alone with `clumps` (by class, as in Packing). The grains lie in `box`; centres outside a
+/// periodic one are wrapped. Throws InputError naming file and line.
+Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes = 1,
+                         std::vector<ClumpShape> clumps = {});
 
 /// Digits that read back to the same bits; from the box's lower left corner; its size stands in a comment.
 /// Throws OutputError.

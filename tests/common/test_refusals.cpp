@@ -24,8 +24,8 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     p.center = {{0.5, 0.5}};
     p.radius = {0.1};
     for (const Feature feature :
-         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
-          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::clumps,
+          Feature::friction, Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
         EXPECT_EQ(refusal(s, p, feature), "");
 
     s.material.friction = 0.3;
@@ -49,6 +49,12 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     p.aspect_ratio = {1.5};
     EXPECT_NE(refusal(s, p, Feature::ellipses).find("a packing of ellipses is not for cubes"),
               std::string::npos);
+    EXPECT_EQ(refusal(s, p, Feature::clumps), "");
+    p.clumps.push_back(clump_shape(discs_in_line(2, 1.5)));
+    EXPECT_EQ(refusal(s, p, Feature::clumps),
+              "a packing of clumps is not for cubes: they are stiff; leave out grain_class.clump and "
+              "clump_discs or "
+              "run another method");
     s.classes.resize(1);
     EXPECT_EQ(refusal(s, p, Feature::grain_classes), "");
     s.classes.resize(3);
@@ -69,8 +75,8 @@ TEST(Refusals, AreWhatTheTableOfFeaturesLeavesOut) {
     }
     EXPECT_EQ(left_out, 3);
     for (const Feature feature :
-         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
-          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::clumps,
+          Feature::friction, Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
         EXPECT_TRUE(std::any_of(feature_rows().begin(), feature_rows().end(), [&](const FeatureRow& row) {
             return row.needs == feature;
         })) << "a feature without a row";

@@ -64,14 +64,24 @@ Packing crowd(int side, bool periodic, bool two_classes) {
     return p;
 }
 
+/// The same crowd of clumps a little longer than wide, of three and of two discs.
+void make_clumps(Packing& packing) {
+    Random random(7);
+    for (std::size_t g = 0; g < packing.size(); ++g) packing.angle.push_back(random.between(0.0, 6.2));
+    packing.clumps = {
+        clump_shape(std::vector<Disc>{{{0.0, 0.0}, 1.0}, {{0.25, 0.1}, 0.85}, {{-0.1, -0.3}, 0.8}}),
+        clump_shape(discs_in_line(2, 1.15))};
+}
+
 class SameAsPlain : public ::testing::TestWithParam<Law> {};
 
-TEST_P(SameAsPlain, InAShearedCellAndBetweenMovingWalls) {
-    const Scenario scenario = scenario_of(GetParam());
+void expect_same(const Law& law, bool clumps) {
+    const Scenario scenario = scenario_of(law);
     for (const bool periodic : {true, false}) {
         // In a cell grains at rest move against its flow by rounding; Cundall's damping asks for the sign.
-        if (periodic && GetParam().nonviscous > 0.0) continue;
-        const Packing packing = crowd(12, periodic, GetParam().two_classes);
+        if (periodic && law.nonviscous > 0.0) continue;
+        Packing packing = crowd(clumps ? 7 : 12, periodic, law.two_classes);
+        if (clumps) make_clumps(packing);
         RigidDem fast(scenario, packing);
         testing::PlainDem plain(scenario, packing);
         WallMotion motion{packing.box, {0.01, -0.01, 0.005, -0.005}, periodic ? 0.1 : 0.0};
@@ -101,9 +111,16 @@ TEST_P(SameAsPlain, InAShearedCellAndBetweenMovingWalls) {
         // Sums in another order: rounding, which collisions amplify, but by less than 1e5 in this time.
         EXPECT_LT(error, 1e-11) << (periodic ? "in a cell" : "between walls");
         EXPECT_GT(moving, 0.01);
-        EXPECT_EQ(turning > 0.0,
-                  GetParam().friction > 0.0 || GetParam().cohesion > 0.0 || GetParam().rolling > 0.0);
+        EXPECT_EQ(turning > 0.0, clumps || law.friction > 0.0 || law.cohesion > 0.0 || law.rolling > 0.0);
     }
+}
+
+TEST_P(SameAsPlain, InAShearedCellAndBetweenMovingWalls) {
+    expect_same(GetParam(), false);
+}
+
+TEST_P(SameAsPlain, AsClumps) {
+    expect_same(GetParam(), true);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -105,6 +105,18 @@ TEST(RigidDem, HertzHasAFiniteStepBeforeTheFirstContact) {
     EXPECT_LT(step("hertz"), 20.0 * step("linear"));  // k_n 1.5 sqrt(1e-3) of that at a unit overlap
 }
 
+/// A block without a pair in it has a time step too.
+TEST(RigidDem, LoneGrainsOfTwoClassesAreFine) {
+    Scenario s = elastic(0.3, 0.5);
+    s.classes.resize(2);
+    Packing p = two_discs(50.0);
+    p.grain_class = {0, 1};
+    RigidDem dem(s, p);
+    run(dem, p, 100.0, 1.0);
+    EXPECT_TRUE(std::isfinite(dem.stable_time_step()));
+    EXPECT_EQ(dem.view(Need::base).velocity[0].norm(), 0.0);
+}
+
 TEST(RigidDem, LeavesItsValidityAtTheOverlapLimit) {
     Packing p = two_discs(-0.099);
     RigidDem inside(elastic(), p);
