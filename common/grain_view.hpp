@@ -49,7 +49,7 @@ struct GrainContact {
 struct EnergyLedger {
     double kinetic = 0.0;        ///< of the motion against the flow of a periodic cell, if there is one
     double elastic = 0.0;        ///< stored, recoverable
-    double external_work = 0.0;  ///< done on the grains by the walls, or by the deforming cell
+    double external_work = 0.0;  ///< done on the grains by the walls, the deforming cell and gravity
     double damping = 0.0;        ///< dissipated by viscous terms
     double friction = 0.0;       ///< dissipated by sliding
     double impact = 0.0;         ///< dissipated by inelastic shocks
@@ -105,6 +105,7 @@ struct GrainView {
     std::span<const Vec2> centroid;          ///< [n] may lie outside a periodic cell [m]
     std::span<const Vec2> velocity;          ///< [n] [m/s]
     std::span<const double> mass;            ///< [n] [kg]
+    Vec2 gravity = Vec2::Zero();             ///< weight of a grain: its mass times this [m/s^2]
     std::span<const double> reference_area;  ///< [n] undeformed [m^2]
     std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
                                    Vec2::Zero()};  ///< by grains on walls, zero in a periodic cell [N]

@@ -59,6 +59,7 @@ struct PackingSpec {
 struct BoxSpec {
     std::optional<double> width, height;  ///< [m]
     bool periodic = false;                ///< a periodic cell instead of walls
+    Vec2 gravity = Vec2::Zero();          ///< acceleration of free grains, walls only [m/s^2]
 };
 
 /// What moves (common/stage_plan.hpp). shear and gradient are for a periodic cell only.

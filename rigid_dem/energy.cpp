@@ -22,9 +22,20 @@ double stored(const Parameters& law, const ContactMemory& memory, const ContactS
 
 }  // namespace
 
+/// Against gravity, from the origin.
+double RigidDem::height_energy() const {
+    if (gravity_.isZero(0.0)) return 0.0;
+    double energy = 0.0;
+    each_grain([&](std::size_t grain, std::size_t r) {
+        energy -= mass_[grain] * gravity_.dot(Vec2{record_[r].x, record_[r].y});
+    });
+    return energy;
+}
+
 /// Kinetic energy of velocities half a kick ahead, at the time of the positions.
 EnergyLedger RigidDem::energy() const {
     EnergyLedger ledger = dissipated_;
+    ledger.external_work += height_energy_at_start_ - height_energy();
     each_grain([&](std::size_t, std::size_t r) {
         const GrainRecord& g = record_[r];
         const ForceSum& f = force_[r];

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/gravity.hpp"
 #include "common/space_order.hpp"
 
 namespace softgrain::rigid_dem {
@@ -38,6 +39,7 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
       uniform_(!law_.hertz && scenario.class_count() == 1),
       box_(packing.box),
       walls_{packing.box, {}, 0.0},
+      gravity_(gravity_of(scenario, packing)),
       radius_(packing.radius),
       thread_choice_(omp_get_max_threads()) {
     const std::size_t n = packing.size();
@@ -62,6 +64,7 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     flips_ = box_.periodic ? box_.flips() : 0;
     skin_ = skin_by_motion();
     list_neighbors(std::move(x));
+    height_energy_at_start_ = height_energy();
     evaluate_forces(walls_, 0.0);
     if (law_.bonds_of_start_only) law_.between_grains.sticks = 0.0;
     find_frequency();
@@ -172,6 +175,7 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
     refresh_copies(block, cell);
     std::fill_n(force_.begin() + static_cast<std::ptrdiff_t>(block.first_record),
                 block.grains + block.halo.size(), ForceSum{});
+    start_with_weight(block);
     PairSums sums{};
     kernel_({.grain = &record_[block.first_record],
              .force = &force_[block.first_record],
@@ -199,6 +203,15 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
         totals.overlap = std::max(totals.overlap, at_walls.overlap);
     }
     return totals;
+}
+
+void RigidDem::start_with_weight(const Block& block) {
+    if (gravity_.isZero(0.0)) return;
+    for (std::size_t g = 0; g < block.grains; ++g) {
+        const Vec2 weight = mass_[order_[block.first_grain + g]] * gravity_;
+        force_[block.first_record + g].fx = weight.x();
+        force_[block.first_record + g].fy = weight.y();
+    }
 }
 
 /// Copies follow their grains, in the image where this block sees them.

@@ -45,6 +45,7 @@ class RigidDem final : public Solver {
     void evaluate_forces(const WallMotion& walls, double dt);
     BlockTotals contact_forces(std::size_t block, const WallMotion& cell, double dt);
     void refresh_copies(const Block& block, const WallMotion& cell);
+    void start_with_weight(const Block& block);
     void collect_arrivals(const Block& block);
     void throw_too_fast(const WallMotion& walls, double dt) const;
     bool threads() const;
@@ -78,6 +79,7 @@ class RigidDem final : public Solver {
 
     // energy
     EnergyLedger energy() const;
+    double height_energy() const;
 
     // view
     void sort_by_grain();
@@ -108,10 +110,12 @@ class RigidDem final : public Solver {
 
     Parameters law_;
     PairKernel kernel_;
-    bool uniform_;      ///< all pairs are equally stiff
-    Box box_;           ///< as the loop moves it
-    WallMotion walls_;  ///< of the last step, its box at the end of it
-    int flips_ = 0;     ///< of a periodic cell's basis against box_
+    bool uniform_;                         ///< all pairs are equally stiff
+    Box box_;                              ///< as the loop moves it
+    WallMotion walls_;                     ///< of the last step, its box at the end of it
+    Vec2 gravity_;                         ///< [m/s^2]
+    double height_energy_at_start_ = 0.0;  ///< [J]
+    int flips_ = 0;                        ///< of a periodic cell's basis against box_
     double time_ = 0.0, last_dt_ = 0.0;
     double mean_modulus_ = 0.0;
 

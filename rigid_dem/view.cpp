@@ -26,6 +26,7 @@ GrainView RigidDem::view(Need need) {
     view.centroid = x_;
     view.velocity = v_;
     view.mass = mass_;
+    view.gravity = gravity_;
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy();

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/gravity.hpp"
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/quasi_static.hpp"
 
@@ -143,6 +144,7 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
         settings.text("grain_law") == "linear" || (printed && settings.text("grain_law") == "auto")
             ? GrainLaw::linear
             : GrainLaw::neo_hookean;
+    motion.gravity = gravity_of(scenario, packing);
     motion.shape_damping = settings.number("shape_damping") > 0.0;
     std::vector<GrainMaterial> materials;
     for (std::size_t c = 0; c < scenario.class_count(); ++c) {

@@ -95,6 +95,14 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
     }
 }
 
+void check_gravity(const CheckedTable& box, ErrorList& errors) {
+    if (!box.sound({"periodic"}) || !box.settings.boolean("periodic")) return;
+    for (const std::string_view key : {"gravity_x", "gravity_y"})
+        if (box.sound({key}) && box.settings.number(key) != 0.0)
+            errors.add(box.place_of(key), box.full(key),
+                       "needs walls that carry the weight: set box.periodic = false, or leave it out");
+}
+
 void check_sampling(const CheckedTable& sampling, ErrorList& errors) {
     if (!sampling.sound({"measures"})) return;
     const std::vector<std::string> names = measures_in(sampling.settings.text("measures"));

@@ -95,8 +95,11 @@ class Reader {
         const std::filesystem::path folder = source_.parent_path();
         check_packing(packing, box, folder, errors_);
         scenario.packing = packing_of(packing, folder);
-        scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height"),
-                        box.settings.boolean("periodic")};
+        scenario.box = {optional_number(box.settings, "width"),
+                        optional_number(box.settings, "height"),
+                        box.settings.boolean("periodic"),
+                        {box.settings.number("gravity_x"), box.settings.number("gravity_y")}};
+        check_gravity(box, errors_);
         scenario.loading = stages(box);
         const CheckedTable sampling = table("sampling");
         check_sampling(sampling, errors_);

@@ -92,6 +92,8 @@ const std::vector<KeySpec> box_keys{
      positive},
     {"height", number, Value(), "m", "of the box", positive},
     {"periodic", boolean, Value(false), "", "a periodic cell instead of walls"},
+    {"gravity_x", number, Value(0.0), "m/s^2", "body force / mass, of a box with walls"},
+    {"gravity_y", number, Value(0.0), "m/s^2", "body force / mass, of a box with walls; negative: downwards"},
 };
 
 const std::vector<KeySpec> loading_keys{

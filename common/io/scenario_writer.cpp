@@ -119,6 +119,8 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
         set_optional(s, "width", scenario.box.width);
         set_optional(s, "height", scenario.box.height);
         s.set("periodic", scenario.box.periodic);
+        s.set("gravity_x", scenario.box.gravity.x());
+        s.set("gravity_y", scenario.box.gravity.y());
     }
     if (table == "sampling") return {settings_of(scenario.sampling)};
     const auto each = [](const auto& entries) {

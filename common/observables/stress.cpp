@@ -1,5 +1,7 @@
 #include "common/observables/stress.hpp"
 
+#include <algorithm>
+
 namespace softgrain {
 
 Vec2 wall_stress(const std::array<Vec2, 4>& wall_force, const Box& box) {
@@ -30,9 +32,12 @@ Mat2 love_weber_stress(const GrainView& view) {
 }
 
 double unbalanced_force(const GrainView& view) {
-    if (view.contacts.empty()) return 0.0;
-    std::vector<Vec2> net(view.size(), Vec2::Zero());
-    double contact_force = 0.0;
+    std::vector<Vec2> net;
+    double mean_weight = 0.0, contact_force = 0.0;
+    for (const double mass : view.mass) {
+        net.emplace_back(mass * view.gravity);
+        mean_weight += net.back().norm() / static_cast<double>(view.size());
+    }
     for (const GrainContact& c : view.contacts) {
         net[static_cast<std::size_t>(c.i)] += c.force;
         if (!c.with_wall()) net[static_cast<std::size_t>(c.j)] -= c.force;
@@ -40,8 +45,9 @@ double unbalanced_force(const GrainView& view) {
     }
     double unbalanced = 0.0;
     for (const Vec2& f : net) unbalanced += f.norm();
-    contact_force /= static_cast<double>(view.contacts.size());
-    return contact_force > 0.0 ? unbalanced / static_cast<double>(view.size()) / contact_force : 0.0;
+    if (!view.contacts.empty()) contact_force /= static_cast<double>(view.contacts.size());
+    const double scale = std::max(contact_force, mean_weight);
+    return scale > 0.0 ? unbalanced / static_cast<double>(view.size()) / scale : 0.0;
 }
 
 }  // namespace softgrain
