@@ -32,12 +32,13 @@ Mat2 love_weber_stress(const GrainView& view) {
 }
 
 double unbalanced_force(const GrainView& view) {
-    std::vector<Vec2> net;
+    std::vector<Vec2> net(view.size(), Vec2::Zero());
     double mean_weight = 0.0, contact_force = 0.0;
-    for (const double mass : view.mass) {
-        net.emplace_back(mass * view.gravity);
-        mean_weight += net.back().norm() / static_cast<double>(view.size());
-    }
+    if (!view.gravity.isZero(0.0))
+        for (std::size_t g = 0; g < view.size(); ++g) {
+            net[g] = view.mass[g] * view.gravity;
+            mean_weight += net[g].norm() / static_cast<double>(view.size());
+        }
     for (const GrainContact& c : view.contacts) {
         net[static_cast<std::size_t>(c.i)] += c.force;
         if (!c.with_wall()) net[static_cast<std::size_t>(c.j)] -= c.force;

@@ -276,6 +276,9 @@ const std::vector<Case> classes{
     in("[material]\ncohesion = -1", "s.toml:2:12: material.cohesion must be >= 0, got -1"),
     in("[material]\nyield_stress = 0", "s.toml:2:16: material.yield_stress must be > 0, got 0"),
     in("[box]\nperiodic = 1", "s.toml:2:12: box.periodic must be true or false, got the integer 1"),
+    in("[box]\nperiodic = true\ngravity_y = -9.81",
+       "s.toml:3:13: box.gravity_y needs walls that carry the weight: set box.periodic = false, or leave it "
+       "out"),
 };
 
 const std::vector<Case> packings{

@@ -77,6 +77,7 @@ void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.box.width, b.box.width);
     EXPECT_EQ(a.box.height, b.box.height);
     EXPECT_EQ(a.box.periodic, b.box.periodic);
+    EXPECT_EQ(a.box.gravity, b.box.gravity);
     ASSERT_EQ(a.loading.size(), b.loading.size());
     for (std::size_t k = 0; k < a.loading.size(); ++k) expect_same(a.loading[k], b.loading[k]);
     EXPECT_EQ(a.sampling.strain_interval, b.sampling.strain_interval);
@@ -127,6 +128,8 @@ packing_fraction = 0.6
 [box]
 width = 2
 height = 0.30000000000000004
+gravity_x = 0.1
+gravity_y = -9.81
 [[loading]]
 until_packing_fraction = 0.95
 until_stress = 1e20
