@@ -27,7 +27,7 @@ double RigidDem::height_energy() const {
     if (gravity_.isZero(0.0)) return 0.0;
     double energy = 0.0;
     each_grain([&](std::size_t grain, std::size_t r) {
-        energy -= mass_[grain] * gravity_.dot(Vec2{record_[r].x, record_[r].y});
+        if (!is_driven(grain)) energy -= mass_[grain] * gravity_.dot(Vec2{record_[r].x, record_[r].y});
     });
     return energy;
 }
@@ -36,7 +36,8 @@ double RigidDem::height_energy() const {
 EnergyLedger RigidDem::energy() const {
     EnergyLedger ledger = dissipated_;
     ledger.external_work += height_energy_at_start_ - height_energy();
-    each_grain([&](std::size_t, std::size_t r) {
+    each_grain([&](std::size_t grain, std::size_t r) {
+        if (is_driven(grain)) return;
         const GrainRecord& g = record_[r];
         const ForceSum& f = force_[r];
         const double kick = 0.5 * last_dt_ * g.inverse_mass;

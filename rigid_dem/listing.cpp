@@ -196,7 +196,10 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
     reach.reserve(x.size());
     for (const std::uint32_t grain : order_) reach.push_back(reach_of(grain));
     neighbors_.build(std::move(x), std::move(reach), skin_, box_.flipped(flips_));
-    blocks_ = cut_into_blocks(neighbors_, order_.size());
+    std::vector<char> driven;
+    if (!driven_.empty())
+        for (const std::uint32_t grain : order_) driven.push_back(is_driven(grain) ? 1 : 0);
+    blocks_ = cut_into_blocks(neighbors_, order_.size(), driven);
     neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
     force_.assign(record_.size(), {});
@@ -204,8 +207,12 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
         for (std::size_t g = 0; g < block.grains; ++g) {
             const std::uint32_t grain = order_[block.first_grain + g];
             const Vec2& at = neighbors_.built_at()[block.first_grain + g];
-            record_[block.first_record + g] = {
-                .x = at.x(), .y = at.y(), .radius = radius_[grain], .inverse_mass = 1.0 / mass_[grain]};
+            const bool moves_as_told = is_driven(grain);
+            record_[block.first_record + g] = {.x = at.x(),
+                                               .y = at.y(),
+                                               .radius = radius_[grain],
+                                               .inverse_mass = moves_as_told ? 0.0 : 1.0 / mass_[grain]};
+            if (moves_as_told) driven_record_[grain - free_grains()] = block.first_record + g;
         }
     for (Block& block : blocks_) prepare_pairs(block);
     wall_contacts_.resize(blocks_.size());
@@ -219,7 +226,7 @@ void RigidDem::list_walls(std::size_t b) {
     for (std::size_t g = 0; g < block.grains; ++g)
         for (int w = 0; w < 4; ++w) {
             const GrainRecord& grain = record(block, g);
-            if (wall_overlap(grain, w, box_) <= -skin_) continue;
+            if (wall_overlap(grain, w, box_) <= -skin_ || grain.inverse_mass == 0.0) continue;
             const ContactStiffness stiffness =
                 stiffness_at_wall(law_, elasticity_of(order_[block.first_grain + g]));
             wall_contacts_[b].push_back({static_cast<std::uint32_t>(block.first_record + g),

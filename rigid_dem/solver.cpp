@@ -41,6 +41,11 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
       walls_{packing.box, {}, 0.0},
       gravity_(gravity_of(scenario, packing)),
       radius_(packing.radius),
+      driven_(packing.driven),
+      driven_start_(packing.center.begin() + static_cast<std::ptrdiff_t>(packing.free_size()),
+                    packing.center.end()),
+      driven_record_(packing.driven.size()),
+      driven_force_(packing.driven.size()),
       thread_choice_(omp_get_max_threads()) {
     const std::size_t n = packing.size();
     smallest_radius_ = *std::min_element(radius_.begin(), radius_.end());
@@ -53,7 +58,7 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
         const Material& material = scenario.material_of(packing.class_of(g));
         reference_area_.push_back(std::numbers::pi * radius_[g] * radius_[g]);
         mass_.push_back(material.density * reference_area_.back());
-        mean_modulus_ += material.youngs_modulus / static_cast<double>(n);
+        if (!is_driven(g)) mean_modulus_ += material.youngs_modulus / static_cast<double>(free_grains());
     }
     std::vector<Vec2> x;
     for (const int g : space_order(packing.center, sorting_cell())) {
@@ -65,6 +70,7 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     skin_ = skin_by_motion();
     list_neighbors(std::move(x));
     height_energy_at_start_ = height_energy();
+    start_driven();
     evaluate_forces(walls_, 0.0);
     if (law_.bonds_of_start_only) law_.between_grains.sticks = 0.0;
     find_frequency();
@@ -92,11 +98,14 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
 
     const std::array<Vec2, 4> wall_force_before = wall_force_;
     const Mat2 pushed_before = cell_virial_ + kinetic_tensor_;
+    const std::vector<ForceSum> driven_force_before = driven_force_;
     evaluate_forces(walls, dt);
     // Trapezoidal rule; walls and cell push with the opposite of what they feel.
     for (std::size_t w = 0; w < 4; ++w)
         dissipated_.external_work -=
             0.5 * (wall_force_[w] + wall_force_before[w]).dot(walls.velocity_of(static_cast<int>(w))) * dt;
+    dissipated_.external_work +=
+        0.5 * (driven_work(driven_force_before, dt) + driven_work(driven_force_, dt));
     if (box_.periodic) {
         const Mat2 before = pushed_before.cwiseProduct(walls.velocity_gradient());
         const Mat2 after = (cell_virial_ + kinetic_tensor_).cwiseProduct(walls_.velocity_gradient());
@@ -120,6 +129,7 @@ void RigidDem::move(const WallMotion& walls, double dt) {
         for (const double one : sums.speed2)
             if (std::isnan(one)) totals[b].first = one;
     }
+    move_driven(time_, dt);
     fastest2_ = 0.0;
     for (const auto& [speed2, work] : totals) {
         if (!(speed2 <= fastest2_)) fastest2_ = speed2;
@@ -151,6 +161,7 @@ void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) totals[b] = contact_forces(b, cell, dt);
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) collect_arrivals(blocks_[b]);
+    take_driven_forces();
 
     BlockTotals all;
     for (const BlockTotals& one : totals) {
@@ -208,7 +219,9 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
 void RigidDem::start_with_weight(const Block& block) {
     if (gravity_.isZero(0.0)) return;
     for (std::size_t g = 0; g < block.grains; ++g) {
-        const Vec2 weight = mass_[order_[block.first_grain + g]] * gravity_;
+        const std::size_t grain = order_[block.first_grain + g];
+        if (is_driven(grain)) continue;
+        const Vec2 weight = mass_[grain] * gravity_;
         force_[block.first_record + g].fx = weight.x();
         force_[block.first_record + g].fy = weight.y();
     }

@@ -1,7 +1,7 @@
 #pragma once
 // Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
 // solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability
-// limit. periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
+// limit. driven.cpp, periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say.
 #include <algorithm>
 
 #include "common/neighbors.hpp"
@@ -65,6 +65,14 @@ class RigidDem final : public Solver {
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
+
+    // driven grains
+    std::size_t free_grains() const { return radius_.size() - driven_.size(); }
+    bool is_driven(std::size_t grain) const { return grain >= free_grains(); }
+    void start_driven();
+    void move_driven(double time, double dt);
+    void take_driven_forces();
+    double driven_work(const std::vector<ForceSum>& force, double dt) const;
 
     // time step
     void find_frequency();
@@ -132,6 +140,12 @@ class RigidDem final : public Solver {
     std::vector<std::vector<WallContact>> wall_contacts_;  ///< by block
     std::vector<GrainRecord> record_;
     std::vector<ForceSum> force_;
+
+    // driven grains, the last ones by number
+    std::vector<DrivenMotion> driven_;
+    std::vector<Vec2> driven_start_;  ///< [m]
+    std::vector<std::size_t> driven_record_;
+    std::vector<ForceSum> driven_force_;  ///< by grains, after the last step
 
     // neighbour list
     NeighborList neighbors_{true};

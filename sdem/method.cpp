@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/gravity.hpp"
+#include "common/refusals.hpp"
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/quasi_static.hpp"
 
@@ -128,7 +129,10 @@ GrainMaterial grain_material(const Material& material, const Settings& settings,
     return m;
 }
 
+constexpr std::array refusals{Refusal{Feature::driven_grains, "its grains deform"}};
+
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
+    refuse(scenario, packing, "sdem", refusals);
     if (packing.size() == 0)
         throw InputError("sdem: the packing has no grain; give packing.path or packing.count");
     const auto table = scenario.method_settings.find("sdem");
@@ -205,8 +209,12 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 }  // namespace
 
 const Method& method() {
-    static const Method row{"sdem", "SDEM: soft discs with six degrees of freedom (Mollon 2022)", keys, make,
-                            "contact_penetration, contact_sweeps, unconverged_steps, fragments"};
+    static const Method row{.name = "sdem",
+                            .title = "SDEM: soft discs with six degrees of freedom (Mollon 2022)",
+                            .keys = keys,
+                            .make = make,
+                            .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments",
+                            .refusals = refusals};
     return row;
 }
 

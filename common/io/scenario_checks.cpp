@@ -49,9 +49,9 @@ void check_radii(const CheckedTable& packing, ErrorList& errors) {
 
 void check_generator(const CheckedTable& packing, const CheckedTable& box, ErrorList& errors) {
     if (!packing.sound({"generator"}) || !box.sound({"periodic"})) return;
-    for (const KeyFault& fault :
-         generator_faults(generator_of(packing.settings), packing.has("packing_fraction"),
-                          box.settings.boolean("periodic")))
+    for (const KeyFault& fault : generator_faults(generator_of(packing.settings),
+                                                  packing.has("packing_fraction") || packing.has("region"),
+                                                  box.settings.boolean("periodic")))
         errors.add(packing.place_of(fault.key), packing.full(fault.key), fault.message);
 }
 

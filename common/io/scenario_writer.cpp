@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/scenario_driven.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
 #include "common/io/scenario_stages.hpp"
@@ -93,6 +94,7 @@ Settings settings_of(const PackingSpec& p) {
     s.set("fractal_dimension", p.fractal_dimension);
     s.set("small_share", p.small_share);
     set_optional(s, "packing_fraction", p.packing_fraction);
+    set_region(s, p.region);
     return s;
 }
 
@@ -105,6 +107,7 @@ Settings settings_of(const Sampling& sampling) {
     s.set("contacts", sampling.contacts);
     s.set("parts", sampling.parts);
     s.set("measures", fmt::format("{}", fmt::join(sampling.measures, ", ")));
+    set_optional(s, "time_interval", sampling.time_interval);
     return s;
 }
 
@@ -129,6 +132,7 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
         return all;
     };
     if (table == "grain_class") return each(scenario.classes);
+    if (table == "driven") return each(scenario.driven);
     if (table == "loading") return each(scenario.loading);
     return {s};
 }

@@ -13,11 +13,11 @@ Vec2 wall_stress(const std::array<Vec2, 4>& wall_force, const Box& box);
 Mat2 boundary_stress(const std::array<Vec2, 4>& wall_force, const Mat2& cell_stress, const Box& box);
 
 /// From grain i to grain j, by the nearest image of a periodic cell, or from grain i to the contact point at
-/// a wall [m].
+/// a wall or a driven grain [m].
 Vec2 branch(const GrainView& view, const GrainContact& contact);
 
-/// Love-Weber: -(1/A) sum of the force on i (x) branch over all contacts, walls included. A weight acts on
-/// the centroid and adds nothing.
+/// Love-Weber: -(1/A) sum of the force on i (x) branch over all contacts of free grains, walls included. A
+/// weight acts on the centroid and adds nothing.
 Mat2 love_weber_stress(const GrainView& view);
 
 /// Mean net force on a grain, its weight included, / mean force of a contact, or mean weight if that is

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "common/packing/driven_grains.hpp"
+#include "common/packing/fill_region.hpp"
 #include "common/packing/generators.hpp"
 #include "common/packing/grain_classes.hpp"
 #include "common/packing/packing_csv.hpp"
@@ -35,27 +37,35 @@ Packing from_file(const Scenario& scenario) {
     return packing;
 }
 
-}  // namespace
-
-Packing make_packing(const Scenario& scenario) {
-    if (scenario.packing.path) return from_file(scenario);
+Packing generated(const Scenario& scenario) {
     const BoxSpec& box = scenario.box;
     const bool sized = box.width && box.height;
     Random random(scenario.seed);
     const std::vector<double> radii = draw_radii(scenario.packing, random);
     const std::vector<std::uint8_t> classes = draw_classes(scenario, radii.size());
     const std::vector<double> elongation = aspect_ratios(scenario, classes, radii.size());
+    const std::vector<double> discs = radii_of_discs_around(radii, elongation);
+    const std::optional<PackingRegion>& region = scenario.packing.region;
     const PackingRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
                                  .packing_fraction = scenario.packing.packing_fraction,
                                  .periodic = box.periodic,
                                  .grain_share = share_of_discs_around(radii, elongation)};
     Packing packing =
-        generate(scenario.packing.generator, radii_of_discs_around(radii, elongation), request, random);
+        region ? fill_region(discs, *region, Box{{0.0, box.width.value(), 0.0, box.height.value()}}, random)
+               : generate(scenario.packing.generator, discs, request, random);
     packing.radius = radii;
     packing.grain_class = classes;
     packing.aspect_ratio = elongation;
     if (!elongation.empty()) packing.angle = draw_angles(scenario, radii.size());
-    if (sized) scale_to(packing, *box.width, *box.height);
+    if (sized && !region) scale_to(packing, *box.width, *box.height);
+    return packing;
+}
+
+}  // namespace
+
+Packing make_packing(const Scenario& scenario) {
+    Packing packing = scenario.packing.path ? from_file(scenario) : generated(scenario);
+    add_driven_grains(scenario, packing);
     return packing;
 }
 

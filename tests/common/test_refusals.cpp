@@ -25,7 +25,7 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     p.radius = {0.1};
     for (const Feature feature :
          {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
-          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+          Feature::wall_friction, Feature::cohesion, Feature::yield_stress, Feature::driven_grains})
         EXPECT_EQ(refusal(s, p, feature), "");
 
     s.material.friction = 0.3;
@@ -39,6 +39,10 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     EXPECT_NE(refusal(s, p, Feature::wall_friction).find("material.wall_friction = 0.1 is not"),
               std::string::npos);
     EXPECT_NE(refusal(s, p, Feature::cohesion).find("set material.cohesion = 0 or"), std::string::npos);
+    p.driven.resize(1);
+    EXPECT_EQ(refusal(s, p, Feature::driven_grains),
+              "[[driven]] is not for cubes: they are stiff; leave it out or run another method");
+    p.driven.clear();
     p.box.periodic = true;
     EXPECT_EQ(refusal(s, p, Feature::periodic_cell),
               "box.periodic = true is not for cubes: they are stiff; set box.periodic = false or run another "
@@ -70,7 +74,7 @@ TEST(Refusals, AreWhatTheTableOfFeaturesLeavesOut) {
     EXPECT_EQ(left_out, 3);
     for (const Feature feature :
          {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::friction,
-          Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+          Feature::wall_friction, Feature::cohesion, Feature::yield_stress, Feature::driven_grains})
         EXPECT_TRUE(std::any_of(feature_rows().begin(), feature_rows().end(), [&](const FeatureRow& row) {
             return row.needs == feature;
         })) << "a feature without a row";

@@ -282,6 +282,20 @@ const std::vector<Case> classes{
 };
 
 const std::vector<Case> packings{
+    in("[packing]\nregion = \"disc\"",
+       "s.toml:2:10: packing.region is filled at random places: set packing.generator = "
+       "\"random_sequential\""),
+    in("[packing]\nregion_radius = 1", "s.toml:2:17: packing.region_radius needs packing.region"),
+    in("[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"",
+       "s.toml:3:10: packing.region needs the size of its box: give box.width and box.height"),
+    in("[box]\nwidth = 1\nheight = 1\n[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"",
+       "s.toml:6:10: packing.region = \"disc\" needs region_radius"),
+    in("[box]\nwidth = 1\nheight = 1\n[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"\n"
+       "region_radius = 0.6",
+       "s.toml:6:10: packing.region must lie inside the box"),
+    in("[[driven]]\ncenter_x = 1\ncenter_y = 1", "s.toml:1:1: driven.0.kind = \"ring\" needs radius"),
+    in("[[driven]]\nkind = \"row\"\nfrom_x = 1\nfrom_y = 1\nto_x = 1\nto_y = 2\nspin = 1",
+       "s.toml:7:8: driven.0.spin is not for kind = \"row\": remove it"),
     in("[packing]\nradius_min = 1.1",
        "s.toml:2:14: packing.radius_min must be at most radius_mean = 1, got 1.1"),
     in("[packing]\nradius_mean = 2",

@@ -1,0 +1,15 @@
+# From a trace: height of each rebound / that before, and the time between the first two rebounds' tops, found by a parabola
+# through three samples.
+BEGIN { FS = "," }
+NR == 2 { last_top = $2; last_time = 0 }
+NR > 3 && h1 > h0 && h1 >= $2 {
+    bend = h0 - 2 * h1 + $2
+    top = h1 - (h0 - $2) * (h0 - $2) / (8 * bend)
+    time = t1 + 0.5 * (h0 - $2) / bend * ($1 - t1)
+    if (++tops > 1 && first_period == "") first_period = time - last_time
+    else if (tops == 1) half_period = time
+    ratios = ratios (tops > 1 ? " " : "") sprintf("%.4f", top / last_top)
+    last_top = top; last_time = time
+}
+{ h0 = h1; h1 = $2; t1 = $1 }
+END { printf "first top after %.4f s, the next %.4f s later; heights / those before: %s\n", half_period, first_period, ratios }
