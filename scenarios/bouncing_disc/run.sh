@@ -21,6 +21,7 @@ trace() { # NAME METHOD KEY=VALUE...
 }
 
 trace undamped rigid_dem
+trace undamped_long_step rigid_dem rigid_dem.safety=0.9
 trace contact_damping rigid_dem rigid_dem.restitution=0.8
 trace nonviscous rigid_dem rigid_dem.nonviscous_damping=0.1
 trace sdem sdem
