@@ -270,7 +270,7 @@ std::optional<std::string> RigidDem::outside_validity() const {
         });
     if (found || box_.periodic) return found;
     each_grain([&](std::size_t grain, std::size_t r) {
-        for (int w = 0; w < 4; ++w)
+        for (int w = 0; w < 4 && !is_driven(grain); ++w)
             look(
                 grain, [&] { return fmt::format("the {} wall", wall_names[static_cast<std::size_t>(w)]); },
                 wall_overlap(record_[r], w, box_), record_[r].radius);

@@ -71,10 +71,11 @@ TEST(Driven, DiscsCarryOthersAndDoNotGiveWay) {
         EXPECT_EQ(view.velocity[d], Vec2(0.0, 0.0));
     }
     ASSERT_EQ(view.contacts.size(), 2U) << "driven discs that overlap do not press on each other";
-    // Two contacts at 30 degrees from upright share the weight.
-    for (const GrainContact& c : view.contacts)
-        EXPECT_NEAR(c.normal_force(), 0.5 * std::numbers::pi * gravity / std::cos(std::numbers::pi / 6.0),
-                    1e-8);
+    // At 30 degrees from upright but for the overlap of 0.004.
+    for (const GrainContact& c : view.contacts) {
+        EXPECT_NEAR(c.normal.y(), -std::cos(std::numbers::pi / 6.0), 2e-3);
+        EXPECT_NEAR(c.normal_force(), -0.5 * std::numbers::pi * gravity / c.normal.y(), 1e-8);
+    }
     EXPECT_LE(unbalanced_force(view), 1e-5);
     const Coordination z = coordination(view);
     EXPECT_EQ(z.all, 0.0);
@@ -83,10 +84,10 @@ TEST(Driven, DiscsCarryOthersAndDoNotGiveWay) {
     EXPECT_EQ(fabric(view).anisotropy, 0.0);
     EXPECT_LT(view.covered_area, std::numbers::pi);
     EXPECT_GT(view.covered_area, 0.99 * std::numbers::pi);
-    // Of the disc alone: each contact is an arm of 1 at 30 degrees from upright.
+    // Of the disc alone: its arms end at the contacts, half an overlap short of 1.
     const double force = view.contacts[0].normal_force();
     EXPECT_NEAR(love_weber_stress(view)(1, 1), 2.0 * force * 0.75 / p.box.area(),
-                1e-3 * force / p.box.area());
+                8e-3 * force / p.box.area());
 }
 
 TEST(Driven, DiscsAreWhereTheyWereToldToBe) {
@@ -108,18 +109,31 @@ TEST(Driven, DiscsAreWhereTheyWereToldToBe) {
     for (std::size_t g = 0; g < 12; ++g) EXPECT_LT(view.centroid[g].norm(), 6.0) << "the drum holds them";
 }
 
+/// By a quarter of the step: of the whole one 2 % are missing, for grains that tumble and slide lose springs
+/// at each contact.
 TEST(Driven, TheirWorkClosesTheLedger) {
     for (const double damping : {0.0, 0.2}) {
         const Packing p = drum(0.03);
         RigidDem dem(scenario_with(1e-3, 0.5, damping), p);
-        advance(dem, p, 400, dem.stable_time_step());
+        advance(dem, p, 1600, 0.25 * dem.stable_time_step());
         const EnergyLedger fallen = dem.view(Need::base).energy;
-        advance(dem, p, 4000, dem.stable_time_step());
+        advance(dem, p, 16000, 0.25 * dem.stable_time_step());
         const EnergyLedger e = dem.view(Need::base).energy;
-        EXPECT_GT(e.external_work, fallen.external_work) << "the drum lifts them and rubs";
+        EXPECT_GT(e.external_work, 2.0 * fallen.external_work) << "the drum lifts them and rubs";
         const double residual = e.external_work - e.kinetic - e.elastic - e.dissipated();
         EXPECT_LE(std::abs(residual), 5e-3 * e.external_work) << "with damping " << damping;
     }
+}
+
+/// Driven discs on and behind a wall are not what makes a run end.
+TEST(Driven, DiscsMayStandInWalls) {
+    Packing p = saddle();
+    p.box.position[2] = 2.0;
+    p.center[0].y() -= 0.15;
+    RigidDem dem(scenario_with(1e-3), p);
+    const auto why = dem.outside_validity();
+    ASSERT_TRUE(why.has_value());
+    EXPECT_NE(why->find("grain 0 and grain 1"), std::string::npos) << *why;
 }
 
 TEST(Driven, ARestartedRunHasTheSameBits) {
