@@ -5,8 +5,8 @@ function finish(    width, k, bin, top, at, bins, sx, sy, sxx, sxy, slope, angle
     if (n == 0 || time < start) return
     width = 4 * radii / n
     for (k = 0; k < n; ++k) {
-        if (x[k] < middle - 0.5 * drum || x[k] > middle + 0.5 * drum) continue
         bin = int(x[k] / width)
+        if ((bin + 0.5) * width < middle - 0.5 * drum || (bin + 0.5) * width > middle + 0.5 * drum) continue
         if (!(bin in top) || y[k] + r[k] > top[bin]) { top[bin] = y[k] + r[k]; at[bin] = x[k] }
     }
     for (bin in top) { ++bins; sx += at[bin]; sy += top[bin]; sxx += at[bin] * at[bin]; sxy += at[bin] * top[bin] }
@@ -15,7 +15,7 @@ function finish(    width, k, bin, top, at, bins, sx, sy, sxx, sxy, slope, angle
     print time "," angle
     ++frames; sum += angle; squares += angle * angle
 }
-BEGIN { FS = ","; middle = 52; drum = 49; print "time,angle" }
+BEGIN { FS = ","; n = 0; middle = 52; drum = 49; print "time,angle" }
 FNR == 1 { finish(); n = radii = 0; split($0, words, " "); time = words[3] }
 /^[0-9]/ && $7 == 0 { x[n] = $2; y[n] = $3; r[n] = $6; radii += $6; ++n }
 END {

@@ -1,6 +1,6 @@
 # Angle of repose from grains_*.csv of the final frame: highest grain in each bin of 4 mean radii, and a straight line (least
 # squares) through the bins between 0.15 and 0.85 of the largest height. Prints the angle in degrees, and the bins used.
-BEGIN { FS = "," }
+BEGIN { FS = ","; n = 0 }
 /^[0-9]/ && $7 == 0 {
     x[n] = $2; y[n] = $3; r[n] = $6; radii += $6; ++n
 }

@@ -103,8 +103,8 @@ TEST_P(Gravity, AColumnRestsOnItsFloor) {
     EXPECT_LE(others.norm() / time, band * weight);
     // Of forces on grains at rest the first moment is zero: contacts take up what weights do.
     EXPECT_NEAR(virial, moment, band * moment);
-    EXPECT_LE(unbalanced_force(view), GetParam().trembling);
     if (GetParam().trembling < 1.0) {
+        EXPECT_LE(unbalanced_force(view), GetParam().trembling);
         EXPECT_NEAR(wall_stress(view.wall_force, view.box).y(), 0.5 * weight / view.box.width(),
                     GetParam().trembling * weight / view.box.width());
     }

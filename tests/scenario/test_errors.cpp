@@ -303,7 +303,7 @@ const std::vector<Case> packings{
     in("[packing]\nradius_max = 0.9",
        "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
     in("[sampling]\nmeasures = \"forces, fabric\"",
-       "s.toml:2:12: sampling.measures names 'fabric', known are forces, chains, pair_correlation, "
+       "s.toml:2:12: sampling.measures names 'fabric', known are forces, chains, grains, pair_correlation, "
        "tessellation"),
     in("[sampling]\nmeasures = \"chains, forces,chains\"",
        "s.toml:2:12: sampling.measures names 'chains' twice"),
