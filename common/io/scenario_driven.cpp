@@ -11,7 +11,6 @@
 namespace softgrain::scenario_io {
 namespace {
 
-using Keys = std::span<const std::string_view>;
 using Words = std::initializer_list<std::string_view>;
 
 constexpr std::array<std::string_view, 5> region_keys{"region_x", "region_y", "region_radius", "region_width",
