@@ -194,6 +194,7 @@ constexpr std::array refusals{
     Refusal{Feature::wall_friction, "its walls are frictionless"},
     Refusal{Feature::cohesion, "its discs attract each other only within a grain"},
     Refusal{Feature::yield_stress, "its grains yield by bpm.attraction_stress"},
+    Refusal{Feature::driven_grains, "its grains are aggregates"},
 };
 
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {

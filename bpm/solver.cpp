@@ -11,6 +11,7 @@
 
 #include "bpm/prepare_grains.hpp"
 #include "common/errors.hpp"
+#include "common/gravity.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -125,6 +126,7 @@ BpmSolver::BpmSolver(const Scenario& scenario, const Packing& packing, const Bpm
                        discs(), box_);
     potential_at_start_ = inner_energy();
     x_start_ = x_;
+    gravity_ = gravity_of(scenario, packing);
 }
 
 void BpmSolver::advance(const WallMotion& walls, double dt) {
@@ -171,6 +173,8 @@ void BpmSolver::step(const WallMotion& walls, double h) {
         bonds_->forces(x_, v_, force_, threads_.parallel());
     else
         attraction_.forces(x_, time_, force_, true, threads_.parallel());
+    if (!gravity_.isZero(0.0))
+        for (std::size_t d = 0; d < x_.size(); ++d) force_[d] += mass_[d] * gravity_;
 #pragma omp parallel for schedule(static) if (threads_.parallel())
     for (std::size_t d = 0; d < x_.size(); ++d) {
         v_before_[d] = v_[d];

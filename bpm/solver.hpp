@@ -104,6 +104,7 @@ class BpmSolver final : public Solver {
     void break_bonds();
     void note_convergence();
     double inner_energy();
+    double work_of_gravity() const;
     double time_step(double step) const;
     SolvedContacts solved_contacts() const;
     void step(const WallMotion& walls, double h);
@@ -135,6 +136,7 @@ class BpmSolver final : public Solver {
 
     double time_ = 0.0;
     Box box_;
+    Vec2 gravity_ = Vec2::Zero();  ///< none while the grains are placed [m/s^2]
     double last_step_ = 0.0;
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     EnergyLedger energy_;

@@ -61,6 +61,14 @@ double BpmSolver::kinetic_energy() const {
     return sum;
 }
 
+/// Since the start of the run.
+double BpmSolver::work_of_gravity() const {
+    if (gravity_.isZero(0.0)) return 0.0;
+    double work = 0.0;
+    for (std::size_t d = 0; d < x_.size(); ++d) work += mass_[d] * gravity_.dot(x_[d] - x_start_[d]);
+    return work;
+}
+
 double BpmSolver::inner_energy() {
     return bonds_ ? bonds_->energy(x_) : attraction_.energy(x_);
 }

@@ -32,9 +32,11 @@ GrainView BpmSolver::view(Need need) {
     view.centroid = centroid_;
     view.velocity = velocity_;
     view.mass = grain_mass_;
+    view.gravity = gravity_;
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy_;
+    view.energy.external_work += work_of_gravity();
     view.contact_report = {penetration_ * diameter_, contact_result_.sweeps,
                            static_cast<double>(unconverged_steps_)};
     view.fragments = bonds_ ? count_fragments() : count_lost_discs();

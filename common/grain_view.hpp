@@ -47,14 +47,16 @@ struct GrainContact {
 /// Running energies since the start of the run [J per unit thickness]. Zero for mechanisms a method does not
 /// have.
 struct EnergyLedger {
-    double kinetic = 0.0;        ///< of the motion against the flow of a periodic cell, if there is one
-    double elastic = 0.0;        ///< stored, recoverable
-    double external_work = 0.0;  ///< done on the grains by the walls, or by the deforming cell
-    double damping = 0.0;        ///< dissipated by viscous terms
-    double friction = 0.0;       ///< dissipated by sliding
-    double impact = 0.0;         ///< dissipated by inelastic shocks
-    double plastic = 0.0;        ///< dissipated by plastic flow
-    double adhesion = 0.0;       ///< dissipated where cohesion pulls less hard than it was overcome
+    double kinetic =
+        0.0;  ///< of free grains; of the motion against the flow of a periodic cell, if there is one
+    double elastic = 0.0;  ///< stored, recoverable
+    double external_work =
+        0.0;                ///< done on the grains by walls, driven grains, the deforming cell and gravity
+    double damping = 0.0;   ///< dissipated by viscous terms
+    double friction = 0.0;  ///< dissipated by sliding
+    double impact = 0.0;    ///< dissipated by inelastic shocks
+    double plastic = 0.0;   ///< dissipated by plastic flow
+    double adhesion = 0.0;  ///< dissipated where cohesion pulls less hard than it was overcome
 
     double dissipated() const { return damping + friction + impact + plastic + adhesion; }
 };
@@ -105,13 +107,15 @@ struct GrainView {
     std::span<const Vec2> centroid;          ///< [n] may lie outside a periodic cell [m]
     std::span<const Vec2> velocity;          ///< [n] [m/s]
     std::span<const double> mass;            ///< [n] [kg]
+    std::size_t driven = 0;                  ///< of the grains the last ones, which move as they are told
+    Vec2 gravity = Vec2::Zero();             ///< weight of a grain: its mass times this [m/s^2]
     std::span<const double> reference_area;  ///< [n] undeformed [m^2]
     std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(),
                                    Vec2::Zero()};  ///< by grains on walls, zero in a periodic cell [N]
     EnergyLedger energy;
 
     std::span<const double> area;  ///< [n] current area of each grain [m^2]
-    double covered_area = 0.0;     ///< area covered by grains, overlaps counted once [m^2]
+    double covered_area = 0.0;     ///< area covered by free grains, overlaps counted once [m^2]
 
     /// Sorted by (i, j), walls (j < 0) first; a pair stands there once for each place where it touches.
     std::span<const GrainContact> contacts;
@@ -130,6 +134,12 @@ struct GrainView {
         std::numeric_limits<double>::quiet_NaN();  ///< that all grains have come to, if the method knows
 
     std::size_t size() const { return centroid.size(); }
+    /// Grains that forces move; they come first.
+    std::size_t free_size() const { return centroid.size() - driven; }
+    /// With a wall, or a driven grain that is like one.
+    bool at_boundary(const GrainContact& c) const {
+        return c.with_wall() || static_cast<std::size_t>(c.j) >= free_size();
+    }
 };
 
 }  // namespace softgrain

@@ -58,8 +58,9 @@ StageDriver::StageDriver(const LoadingStage& stage, std::size_t number, const Sa
     interval_ = sampling.strain_interval;
     if (is_timed()) {
         end_ = stage_.duration.value();
-        interval_ = stage_.kind == LoadingKind::hold ? *end_ / samples_of_a_hold
-                                                     : sampling.strain_interval / largest(stage_);
+        interval_ = stage_.kind == LoadingKind::hold
+                        ? sampling.time_interval.value_or(*end_ / samples_of_a_hold)
+                        : sampling.strain_interval / largest(stage_);
         return;
     }
     find_end();

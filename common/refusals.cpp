@@ -62,6 +62,9 @@ std::optional<Asked> asked_for(const Scenario& scenario, const Packing& packing,
             return material_key("cohesion", material.cohesion);
         case Feature::yield_stress:
             return yield_stress(scenario);
+        case Feature::driven_grains:
+            if (!packing.driven.empty()) return Asked{"[[driven]]", "leave it out"};
+            break;
     }
     return std::nullopt;
 }
@@ -80,6 +83,8 @@ constexpr std::array rows{
     FeatureRow{"friction at walls", Feature::wall_friction},
     FeatureRow{"cohesion", Feature::cohesion},
     FeatureRow{"yield stress of the material", Feature::yield_stress},
+    FeatureRow{"gravity (walls only)", std::nullopt},
+    FeatureRow{"driven grains", Feature::driven_grains},
 };
 
 }  // namespace

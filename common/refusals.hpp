@@ -18,6 +18,7 @@ enum class Feature {
     wall_friction,
     cohesion,
     yield_stress,
+    driven_grains,
 };
 
 /// A feature that a method does not have, and why, for the message.

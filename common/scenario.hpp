@@ -41,6 +41,13 @@ enum class SizeLaw { gaussian, fractal, uniform_volume, single, uniform, two_siz
 /// deposition: under gravity.
 enum class Generator { growth, random_sequential, compaction, geometric, deposition };
 
+/// Part of the box that is filled at the start: a disc, or a rectangle.
+struct PackingRegion {
+    Vec2 center = Vec2::Zero();  ///< from the lower left corner of the box [m]
+    double radius = 0.0;         ///< of a disc [m]; 0: a rectangle
+    Vec2 size = Vec2::Zero();    ///< width and height of a rectangle [m]
+};
+
 /// Where the initial discs come from: a file of x,y,r or a generator.
 struct PackingSpec {
     std::optional<std::filesystem::path> path;  ///< CSV of x,y,r [m]
@@ -55,12 +62,27 @@ struct PackingSpec {
     double small_share = 0.5;  ///< of the grains by number, two_sizes
     /// Undeformed packing fraction to stop at; without it the packing is brought to its jamming point.
     std::optional<double> packing_fraction;
+    std::optional<PackingRegion>
+        region;  ///< with random_sequential and a box of given size, in which radii stay
+};
+
+/// Discs that move as they are told and that no force moves: a ring that may turn about its middle, or a row.
+struct DrivenGrains {
+    bool ring = false;
+    double disc_radius = 1.0;                     ///< [m]
+    double spacing = 1.0;                         ///< largest, between neighbours [disc diameters]
+    Vec2 center = Vec2::Zero();                   ///< of a ring [m]
+    double radius = 0.0;                          ///< of the circle through its discs' centres [m]
+    double spin = 0.0;                            ///< of a ring, counter-clockwise [1/s]
+    Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< centres of a row's first and last disc [m]
+    Vec2 velocity = Vec2::Zero();                 ///< of a row [m/s]
 };
 
 /// Given with a packing file; for a generated packing both set the aspect ratio and the final scale.
 struct BoxSpec {
     std::optional<double> width, height;  ///< [m]
     bool periodic = false;                ///< a periodic cell instead of walls
+    Vec2 gravity = Vec2::Zero();          ///< acceleration of free grains, walls only [m/s^2]
 };
 
 /// What moves (common/stage_plan.hpp). shear and gradient are for a periodic cell only.
@@ -137,6 +159,8 @@ struct Sampling {
     bool contacts = true;
     bool parts = false;                      ///< what grains are made of, of the methods that have such parts
     std::vector<std::string> measures = {};  ///< written at every frame, see MeasureWriter
+    std::optional<double> time_interval =
+        {};  ///< between two rows of a hold [s]; without it a tenth of the hold
 };
 
 struct Scenario {
@@ -145,6 +169,7 @@ struct Scenario {
     Material material;
     std::vector<GrainClass> classes;  ///< empty: one class of discs, made of `material`
     PackingSpec packing;
+    std::vector<DrivenGrains> driven;
     BoxSpec box;
     std::vector<LoadingStage> loading;
     Sampling sampling;

@@ -20,7 +20,7 @@ constexpr double rounding_of_time = 1e-12;  // relative, of a sum of steps
 double mean_density(const Scenario& scenario, const Packing& packing) {
     if (scenario.classes.empty()) return scenario.material.density;
     double mass = 0.0, area = 0.0;
-    for (std::size_t g = 0; g < packing.size(); ++g) {
+    for (std::size_t g = 0; g < packing.free_size(); ++g) {
         const double squared = packing.radius[g] * packing.radius[g];
         mass += scenario.material_of(packing.class_of(g)).density * squared;
         area += squared;
@@ -30,7 +30,7 @@ double mean_density(const Scenario& scenario, const Packing& packing) {
 
 Grains grains_of(const Scenario& scenario, const Packing& packing, const Solver& solver) {
     const double area = packing.packing_fraction_undeformed() * packing.box.area();
-    return {area, 2.0 * std::sqrt(area / static_cast<double>(packing.size()) / std::numbers::pi),
+    return {area, 2.0 * std::sqrt(area / static_cast<double>(packing.free_size()) / std::numbers::pi),
             mean_density(scenario, packing), solver.stress_scale()};
 }
 

@@ -19,18 +19,20 @@ struct Outside {
 };
 
 /// Pairs of a block, and for each of its copies the grain in spatial order (in Halo::record for now).
-void list_pairs(Block& block, const NeighborList& neighbors, std::size_t first, std::size_t last) {
+void list_pairs(Block& block, const NeighborList& neighbors, std::size_t first, std::size_t last,
+                const std::vector<char>& driven) {
     std::vector<Outside> outside;
     block.pairs.reserve(last - first);
     for (std::size_t k = first; k < last; ++k) {
         const auto i = static_cast<std::size_t>(neighbors.pairs()[k].i) - block.first_grain;
         const auto j = static_cast<std::size_t>(neighbors.pairs()[k].j);
+        if (!driven.empty() && driven[block.first_grain + i] != 0 && driven[j] != 0) continue;
         const Image image = neighbors.images().empty() ? Image{} : neighbors.images()[k];
         block.pairs.push_back({static_cast<std::uint16_t>(i), 0});
         if (image == Image{} && j < block.first_grain + block.grains)
             block.pairs.back().j = static_cast<std::uint16_t>(j - block.first_grain);
         else
-            outside.push_back({j, image, k - first});
+            outside.push_back({j, image, block.pairs.size() - 1});
     }
     std::sort(outside.begin(), outside.end(), [](const Outside& a, const Outside& b) {
         return std::pair(a.key(), a.pair) < std::pair(b.key(), b.pair);
@@ -44,7 +46,8 @@ void list_pairs(Block& block, const NeighborList& neighbors, std::size_t first, 
 
 }  // namespace
 
-std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains) {
+std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains,
+                                   const std::vector<char>& driven) {
     std::vector<Block> blocks((grains + grains_per_block - 1) / grains_per_block);
     const auto pairs = neighbors.pairs();
 #pragma omp parallel for schedule(static) if (blocks.size() > 8)
@@ -57,7 +60,7 @@ std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t gr
                    pairs.begin();
         };
         list_pairs(block, neighbors, static_cast<std::size_t>(first_of(block.first_grain)),
-                   static_cast<std::size_t>(first_of(block.first_grain + block.grains)));
+                   static_cast<std::size_t>(first_of(block.first_grain + block.grains)), driven);
     }
     std::size_t record = 0;
     for (Block& block : blocks) {

@@ -43,6 +43,8 @@ inline constexpr std::size_t grains_per_block = 1024;
 
 /// Blocks for a list of neighbours by spatial order. Throws InputError if one grain has more neighbours than
 /// a block can count.
-std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains);
+/// Pairs of two driven grains are left out; `driven` by spatial order, empty for none.
+std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains,
+                                   const std::vector<char>& driven);
 
 }  // namespace softgrain::rigid_dem

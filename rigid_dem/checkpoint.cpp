@@ -48,6 +48,9 @@ void RigidDem::save(Checkpoint& to) const {
     to.put("memory", memory);
     to.put("wall_memory", at_walls);
     to.put("wall_force", std::span<const Vec2>(wall_force_));
+    std::vector<double> driven;
+    for (const ForceSum& f : driven_force_) driven.insert(driven.end(), {f.fx, f.fy, f.shear, f.lost_torque});
+    to.put("driven_force", driven);
     to.put("energy", std::vector<double>{dissipated_.external_work, dissipated_.damping, dissipated_.friction,
                                          dissipated_.adhesion});
 }
@@ -144,6 +147,10 @@ void RigidDem::load(const Checkpoint& from) {
     std::vector<Vec2> wall_force;
     read("wall_force", wall_force, 4);
     std::copy(wall_force.begin(), wall_force.end(), wall_force_.begin());
+    read("driven_force", values, 4 * driven_force_.size());
+    next = 0;
+    for (ForceSum& f : driven_force_)
+        for (double* one : {&f.fx, &f.fy, &f.shear, &f.lost_torque}) *one = values[next++];
     read("energy", values, 4);
     dissipated_.external_work = values[0];
     dissipated_.damping = values[1];

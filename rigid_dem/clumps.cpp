@@ -68,12 +68,13 @@ void Clumps::find_discs(std::span<const std::uint32_t> order, std::span<const Bl
             record_of_[order[block.first_grain + k]] = static_cast<std::uint32_t>(block.first_record + k);
 }
 
-Mat2 Clumps::gather(std::span<const GrainRecord> record, std::span<const ForceSum> force, bool threads) {
+Mat2 Clumps::gather(std::span<const GrainRecord> record, std::span<const ForceSum> force, const Vec2& gravity,
+                    bool threads) {
     std::vector<Mat2> by_block(blocks_of(size()), Mat2::Zero());
 #pragma omp parallel for schedule(static) if (threads)
     for (std::size_t b = 0; b < by_block.size(); ++b)
         for (std::size_t g = b * grains_per_block; g < std::min(size(), (b + 1) * grains_per_block); ++g) {
-            Vec2 total = Vec2::Zero();
+            Vec2 total = mass_[g] * gravity;
             double torque = 0.0;
             for (std::size_t d = first_[g]; d < first_[g + 1]; ++d) {
                 const GrainRecord& disc = record[record_of_[d]];

@@ -51,8 +51,10 @@ class Clumps {
     /// Where the discs are, after a new list; `order`: disc by place in space.
     void find_discs(std::span<const std::uint32_t> order, std::span<const Block> blocks);
 
-    /// Sums the forces on discs to those on clumps. Returns the sum of force on disc (x) arm [N m].
-    Mat2 gather(std::span<const GrainRecord> record, std::span<const ForceSum> force, bool threads);
+    /// Sums the forces on discs, and its weight, to those on each clump. Returns the sum of force on disc (x)
+    /// arm [N m].
+    Mat2 gather(std::span<const GrainRecord> record, std::span<const ForceSum> force, const Vec2& gravity,
+                bool threads);
 
     /// Turns the clumps by their spin over dt, and moves the discs after them. Returns the largest squared
     /// speed that a disc's centre may have against the flow; not a number if one is not [m^2/s^2].

@@ -22,10 +22,22 @@ double stored(const Parameters& law, const ContactMemory& memory, const ContactS
 
 }  // namespace
 
+/// Against gravity, from the origin.
+double RigidDem::height_energy() const {
+    if (gravity_.isZero(0.0)) return 0.0;
+    double energy = 0.0;
+    each_mover([&](std::size_t grain, const GrainRecord& g, const ForceSum&) {
+        if (!is_driven(grain)) energy -= gravity_.dot(Vec2{g.x, g.y}) / g.inverse_mass;
+    });
+    return energy;
+}
+
 /// Kinetic energy of velocities half a kick ahead, at the time of the positions.
 EnergyLedger RigidDem::energy() const {
     EnergyLedger ledger = dissipated_;
-    each_mover([&](std::size_t, const GrainRecord& g, const ForceSum& f) {
+    ledger.external_work += height_energy_at_start_ - height_energy();
+    each_mover([&](std::size_t grain, const GrainRecord& g, const ForceSum& f) {
+        if (is_driven(grain)) return;
         const double kick = 0.5 * last_dt_ * g.inverse_mass;
         Vec2 v{g.vx + f.fx * kick, g.vy + f.fy * kick};
         if (box_.periodic) v -= walls_.affine_velocity({g.x, g.y});

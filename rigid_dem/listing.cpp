@@ -210,7 +210,10 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
             return owner(order_[static_cast<std::size_t>(i)]) != owner(order_[static_cast<std::size_t>(j)]);
         });
     }
-    blocks_ = cut_into_blocks(neighbors_, order_.size());
+    std::vector<char> driven;
+    if (!driven_.empty())
+        for (const std::uint32_t grain : order_) driven.push_back(is_driven(grain) ? 1 : 0);
+    blocks_ = cut_into_blocks(neighbors_, order_.size(), driven);
     if (clumps_) clumps_->find_discs(order_, blocks_);
     neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
@@ -225,8 +228,12 @@ void RigidDem::fill_block(std::size_t b) {
     for (std::size_t g = 0; g < block.grains; ++g) {
         const std::uint32_t grain = order_[block.first_grain + g];
         const Vec2& at = neighbors_.built_at()[block.first_grain + g];
-        record_[block.first_record + g] = {
-            .x = at.x(), .y = at.y(), .radius = radius_[grain], .inverse_mass = 1.0 / mass_[grain]};
+        const bool moves_as_told = is_driven(grain);
+        record_[block.first_record + g] = {.x = at.x(),
+                                           .y = at.y(),
+                                           .radius = radius_[grain],
+                                           .inverse_mass = moves_as_told ? 0.0 : 1.0 / mass_[grain]};
+        if (moves_as_told) driven_record_[grain - free_grains()] = block.first_record + g;
     }
     prepare_pairs(block);
     if (!box_.periodic) list_walls(b);
@@ -239,7 +246,7 @@ void RigidDem::list_walls(std::size_t b) {
     for (std::size_t g = 0; g < block.grains; ++g)
         for (int w = 0; w < 4; ++w) {
             const GrainRecord& grain = record(block, g);
-            if (wall_overlap(grain, w, box_) <= -skin_) continue;
+            if (wall_overlap(grain, w, box_) <= -skin_ || grain.inverse_mass == 0.0) continue;
             const ContactStiffness stiffness =
                 stiffness_at_wall(law_, elasticity_of(order_[block.first_grain + g]));
             wall_contacts_[b].push_back({static_cast<std::uint32_t>(block.first_record + g),

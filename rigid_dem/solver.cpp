@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/gravity.hpp"
 #include "common/space_order.hpp"
 
 namespace softgrain::rigid_dem {
@@ -38,9 +39,18 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
       uniform_(!law_.hertz && scenario.class_count() == 1),
       box_(packing.box),
       walls_{packing.box, {}, 0.0},
+      gravity_(gravity_of(scenario, packing)),
+      driven_(packing.driven),
+      driven_start_(packing.center.begin() + static_cast<std::ptrdiff_t>(packing.free_size()),
+                    packing.center.end()),
+      driven_record_(packing.driven.size()),
+      driven_force_(packing.driven.size()),
       thread_choice_(omp_get_max_threads()) {
     Packing discs_of_clumps;
     if (!packing.clumps.empty()) {
+        if (!driven_.empty())
+            throw InputError(
+                "[[driven]] grains beside clumps are not for rigid_dem; take grains that are discs");
         clumps_ = std::make_unique<Clumps>(scenario, packing);
         discs_of_clumps = packing_of_discs(packing);
         law_.rotates = true;
@@ -58,7 +68,8 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
         const Material& material = scenario.material_of(packing.class_of(g));
         reference_area_.push_back(std::numbers::pi * packing.radius[g] * packing.radius[g]);
         if (!clumps_) mass_.push_back(material.density * reference_area_.back());
-        mean_modulus_ += material.youngs_modulus / static_cast<double>(packing.size());
+        if (g < packing.free_size())
+            mean_modulus_ += material.youngs_modulus / static_cast<double>(packing.free_size());
     }
     for (std::size_t d = 0; clumps_ && d < n; ++d) mass_.push_back(clumps_->mass_at(d));
     std::vector<Vec2> x;
@@ -70,6 +81,8 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     flips_ = box_.periodic ? box_.flips() : 0;
     skin_ = skin_by_motion();
     list_neighbors(std::move(x));
+    height_energy_at_start_ = height_energy();
+    start_driven();
     evaluate_forces(walls_, 0.0);
     if (law_.bonds_of_start_only) law_.between_grains.sticks = 0.0;
     find_frequency();
@@ -97,11 +110,14 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
 
     const std::array<Vec2, 4> wall_force_before = wall_force_;
     const Mat2 pushed_before = cell_virial_ + kinetic_tensor_;
+    const std::vector<ForceSum> driven_force_before = driven_force_;
     evaluate_forces(walls, dt);
     // Trapezoidal rule; walls and cell push with the opposite of what they feel.
     for (std::size_t w = 0; w < 4; ++w)
         dissipated_.external_work -=
             0.5 * (wall_force_[w] + wall_force_before[w]).dot(walls.velocity_of(static_cast<int>(w))) * dt;
+    dissipated_.external_work +=
+        0.5 * (driven_work(driven_force_before, dt) + driven_work(driven_force_, dt));
     if (box_.periodic) {
         const Mat2 before = pushed_before.cwiseProduct(walls.velocity_gradient());
         const Mat2 after = (cell_virial_ + kinetic_tensor_).cwiseProduct(walls_.velocity_gradient());
@@ -139,6 +155,7 @@ void RigidDem::move(const WallMotion& walls, double dt) {
         for (const double one : sums.speed2)
             if (std::isnan(one)) totals[b].first = one;
     }
+    move_driven(time_, dt);
     fastest2_ = 0.0;
     for (const auto& [speed2, work] : totals) {
         if (!(speed2 <= fastest2_)) fastest2_ = speed2;
@@ -171,6 +188,7 @@ void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) totals[b] = contact_forces(b, cell, dt);
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) collect_arrivals(blocks_[b]);
+    take_driven_forces();
 
     BlockTotals all;
     for (const BlockTotals& one : totals) {
@@ -182,7 +200,7 @@ void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
         for (std::size_t w = 0; w < 4; ++w) all.wall_force[w] += one.wall_force[w];
     }
     // From the branch between discs to that between clumps.
-    if (clumps_) all.virial += clumps_->gather(record_, force_, threads());
+    if (clumps_) all.virial += clumps_->gather(record_, force_, gravity_, threads());
     cell_virial_ = -all.virial;
     wall_force_ = all.wall_force;
     largest_overlap_ = all.overlap;
@@ -197,6 +215,7 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
     refresh_copies(block, cell);
     std::fill_n(force_.begin() + static_cast<std::ptrdiff_t>(block.first_record),
                 block.grains + block.halo.size(), ForceSum{});
+    start_with_weight(block);
     PairSums sums{};
     kernel_({.grain = &record_[block.first_record],
              .force = &force_[block.first_record],
@@ -224,6 +243,17 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
         totals.overlap = std::max(totals.overlap, at_walls.overlap);
     }
     return totals;
+}
+
+void RigidDem::start_with_weight(const Block& block) {
+    if (gravity_.isZero(0.0) || clumps_) return;  // the weight of a clump acts at its centre
+    for (std::size_t g = 0; g < block.grains; ++g) {
+        const std::size_t grain = order_[block.first_grain + g];
+        if (is_driven(grain)) continue;
+        const Vec2 weight = mass_[grain] * gravity_;
+        force_[block.first_record + g].fx = weight.x();
+        force_[block.first_record + g].fy = weight.y();
+    }
 }
 
 /// Copies follow their grains, in the image where this block sees them.
@@ -269,7 +299,7 @@ std::optional<std::string> RigidDem::outside_validity() const {
         });
     if (found || box_.periodic) return found;
     each_grain([&](std::size_t grain, std::size_t r) {
-        for (int w = 0; w < 4; ++w)
+        for (int w = 0; w < 4 && !is_driven(grain); ++w)
             look(
                 grain, [&] { return fmt::format("the {} wall", wall_names[static_cast<std::size_t>(w)]); },
                 wall_overlap(record_[r], w, box_), record_[r].radius);

@@ -1,8 +1,8 @@
 #pragma once
 // Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
 // solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability
-// limit. periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say. With clumps, everything here
-// counts discs, and what moves and what the view tells are the clumps (clumps.hpp).
+// limit. driven.cpp, periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say. With clumps,
+// everything here counts discs, and what moves and what the view tells are the clumps (clumps.hpp).
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -52,6 +52,7 @@ class RigidDem final : public Solver {
     void evaluate_forces(const WallMotion& walls, double dt);
     BlockTotals contact_forces(std::size_t block, const WallMotion& cell, double dt);
     void refresh_copies(const Block& block, const WallMotion& cell);
+    void start_with_weight(const Block& block);
     void collect_arrivals(const Block& block);
     void throw_too_fast(const WallMotion& walls, double dt) const;
     bool threads() const;
@@ -77,6 +78,14 @@ class RigidDem final : public Solver {
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
 
+    // driven grains
+    std::size_t free_grains() const { return radius_.size() - driven_.size(); }
+    bool is_driven(std::size_t grain) const { return grain >= free_grains(); }
+    void start_driven();
+    void move_driven(double time, double dt);
+    void take_driven_forces();
+    double driven_work(const std::vector<ForceSum>& force, double dt) const;
+
     // time step
     void find_frequency();
     double frequency2_of_clumps() const;
@@ -92,6 +101,7 @@ class RigidDem final : public Solver {
 
     // energy
     EnergyLedger energy() const;
+    double height_energy() const;
 
     // view
     void sort_by_grain();
@@ -131,10 +141,12 @@ class RigidDem final : public Solver {
 
     Parameters law_;
     PairKernel kernel_;
-    bool uniform_;      ///< all pairs are equally stiff
-    Box box_;           ///< as the loop moves it
-    WallMotion walls_;  ///< of the last step, its box at the end of it
-    int flips_ = 0;     ///< of a periodic cell's basis against box_
+    bool uniform_;                         ///< all pairs are equally stiff
+    Box box_;                              ///< as the loop moves it
+    WallMotion walls_;                     ///< of the last step, its box at the end of it
+    Vec2 gravity_;                         ///< [m/s^2]
+    double height_energy_at_start_ = 0.0;  ///< [J]
+    int flips_ = 0;                        ///< of a periodic cell's basis against box_
     double time_ = 0.0, last_dt_ = 0.0;
     double mean_modulus_ = 0.0;
 
@@ -154,6 +166,12 @@ class RigidDem final : public Solver {
     std::vector<std::vector<WallContact>> wall_contacts_;  ///< by block
     std::vector<GrainRecord> record_;
     std::vector<ForceSum> force_;
+
+    // driven grains, the last ones by number
+    std::vector<DrivenMotion> driven_;
+    std::vector<Vec2> driven_start_;  ///< [m]
+    std::vector<std::size_t> driven_record_;
+    std::vector<ForceSum> driven_force_;  ///< by grains, after the last step
 
     // neighbour list
     NeighborList neighbors_{true};

@@ -26,6 +26,8 @@ GrainView RigidDem::view(Need need) {
     view.centroid = x_;
     view.velocity = v_;
     view.mass = clumps_ ? clumps_->mass() : std::span<const double>(mass_);
+    view.gravity = gravity_;
+    view.driven = driven_.size();
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy();
@@ -124,7 +126,7 @@ void RigidDem::measure_area() {
         }
     }
     covered_area_ = 0.0;
-    for (double a : area_) covered_area_ += a;
+    for (std::size_t g = 0; g < free_grains(); ++g) covered_area_ += area_[g];
 }
 
 void RigidDem::list_contacts() {

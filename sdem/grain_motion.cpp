@@ -55,8 +55,8 @@ void load_block(MotionBlock& block, const MotionInput& in, const Grains& grains,
         block.damping_rate[l] = material.shape_damping / grain.radius;
         block.dilation_inertia[l] = material.dilation_inertia;
         block.yield[l] = material.yield;
-        block.fx[l] = sums.fx;
-        block.fy[l] = sums.fy;
+        block.fx[l] = sums.fx + grain.mass * in.law.gravity.x();
+        block.fy[l] = sums.fy + grain.mass * in.law.gravity.y();
         block.damping_fx[l] = sums.damping_fx;
         block.damping_fy[l] = sums.damping_fy;
         block.moment.set(l, sums.moment);

@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/gravity.hpp"
+#include "common/refusals.hpp"
 #include "sdem/laws/lens_potential.hpp"
 #include "sdem/quasi_static.hpp"
 
@@ -129,6 +131,7 @@ GrainMaterial grain_material(const Material& material, const Settings& settings,
 
 constexpr std::array refusals{
     Refusal{Feature::clumps, "its grains are discs or ellipses"},
+    Refusal{Feature::driven_grains, "its grains deform"},
 };
 
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
@@ -148,6 +151,7 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
         settings.text("grain_law") == "linear" || (printed && settings.text("grain_law") == "auto")
             ? GrainLaw::linear
             : GrainLaw::neo_hookean;
+    motion.gravity = gravity_of(scenario, packing);
     motion.shape_damping = settings.number("shape_damping") > 0.0;
     std::vector<GrainMaterial> materials;
     for (std::size_t c = 0; c < scenario.class_count(); ++c) {
@@ -208,10 +212,12 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
 }  // namespace
 
 const Method& method() {
-    static const Method row{
-        "sdem",  "SDEM: soft discs with six degrees of freedom (Mollon 2022)",        keys,
-        make,    "contact_penetration, contact_sweeps, unconverged_steps, fragments", nullptr,
-        refusals};
+    static const Method row{.name = "sdem",
+                            .title = "SDEM: soft discs with six degrees of freedom (Mollon 2022)",
+                            .keys = keys,
+                            .make = make,
+                            .not_given = "contact_penetration, contact_sweeps, unconverged_steps, fragments",
+                            .refusals = refusals};
     return row;
 }
 

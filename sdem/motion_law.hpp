@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/vec.hpp"
+
 namespace softgrain::sdem {
 
 enum class ContactLaw : std::uint8_t { mollon2022, lens_potential };
@@ -26,6 +28,7 @@ struct MotionLaw {
     bool shape_damping = true;
     bool dilation_inertia = false;  ///< some class has it
     bool plastic = false;           ///< some class yields
+    Vec2 gravity = Vec2::Zero();    ///< acts on the centre [m/s^2]
 };
 
 /// Grains per block. Blocks are the unit of threads, so sums over blocks do not depend on their number.

@@ -42,7 +42,7 @@ double QuasiStaticSolver::stable_time_step() const {
 void QuasiStaticSolver::advance(const WallMotion& walls, double dt) {
     const std::array<Vec2, 4> force_before = wall_force_;
     const Mat2 stress_before = cell_stress();
-    const double energy_before = potential_energy();
+    const double energy_before = potential_energy() + height_energy();
     const Box before = walls.box;
     motion_ = walls;
     motion_.box = walls.after(dt);
@@ -64,7 +64,7 @@ void QuasiStaticSolver::advance(const WallMotion& walls, double dt) {
     }
     ledger_.external_work += work;
     // What rearrangements set free is taken away by the relaxation.
-    ledger_.damping += work - (potential_energy() - energy_before) - plastic;
+    ledger_.damping += work - (potential_energy() + height_energy() - energy_before) - plastic;
     ledger_.plastic += plastic;
 }
 

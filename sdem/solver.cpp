@@ -33,6 +33,7 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
     skin_ = options.skin * packing.mean_radius();
     grains_.material = std::move(material);
     place(packing);
+    height_energy_at_start_ = height_energy();
     const std::size_t n = size();
     if (has_potential()) {
         pressures_.stress.assign(n, 0.0);

@@ -52,6 +52,8 @@ class SoftDiscSolver : public Solver {
     /// Elastic energy of the grains, and with that of springs and adhesion [J].
     double grain_energy() const;
     double potential_energy() const;
+    /// Against gravity, from the origin [J].
+    double height_energy() const;
     bool threads_pay_off() const { return threads_.parallel(); }
     /// The cell or the walls at their present place, on the lattice that the contact list was made for.
     WallMotion cell() const { return motion_.flipped(flips_); }
@@ -73,6 +75,7 @@ class SoftDiscSolver : public Solver {
     double time_ = 0.0;
     double lag_ = 0.0;  ///< by how much velocities are behind positions: half a step [s]
     std::array<Vec2, 4> wall_force_{};
+    double height_energy_at_start_ = 0.0;  ///< [J]
     ThreadChoice threads_;
     EnergyLedger
         ledger_;  ///< up to half a step before now; kinetic not used, elastic only without a potential

@@ -79,6 +79,14 @@ double SoftDiscSolver::potential_energy() const {
     return grain_energy() + stored_energy(options_.sliding, grains_, contacts_);
 }
 
+double SoftDiscSolver::height_energy() const {
+    const Vec2& gravity = options_.motion.gravity;
+    if (gravity.isZero(0.0)) return 0.0;
+    double sum = 0.0;
+    for (std::size_t g = 0; g < size(); ++g) sum -= grains_.grain[g].mass * gravity.dot(grains_.center[g]);
+    return sum;
+}
+
 /// The ledger at the present positions: half a step further than the velocities kept.
 EnergyLedger SoftDiscSolver::energy() const {
     EnergyLedger ledger = ledger_;
@@ -94,7 +102,12 @@ EnergyLedger SoftDiscSolver::energy() const {
         flux = flux + work.flux;
     }
     add_boundary_work(ledger, motion_, flux, lag_);
-    if (has_potential()) ledger.elastic = potential_energy();
+    const double fallen = height_energy_at_start_ - height_energy();
+    ledger.external_work += fallen;
+    if (has_potential())
+        ledger.elastic = potential_energy();
+    else
+        ledger.elastic += fallen;  // the kicks by weights count as taken from what is stored
     return ledger;
 }
 

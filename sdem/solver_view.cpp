@@ -13,6 +13,7 @@ GrainView SoftDiscSolver::view(Need need) {
     v.centroid = view_.center;
     v.velocity = view_.velocity;
     v.mass = view_.mass;
+    v.gravity = options_.motion.gravity;
     v.reference_area = view_.reference_area;
     v.wall_force = wall_force_;
     v.energy = energy();

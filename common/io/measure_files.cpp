@@ -21,6 +21,15 @@ constexpr double chain_turn = std::numbers::pi / 4.0;  // of Peters et al. 2005
 constexpr double distance_bin = 0.05;
 constexpr double reach = 6.0;
 
+/// Of the disc of its undeformed area [m].
+double radius_of(const GrainView& view, std::size_t grain) {
+    return std::sqrt(view.reference_area[grain] / std::numbers::pi);
+}
+
+std::span<const Vec2> free_centres(const GrainView& view) {
+    return view.centroid.first(view.free_size());
+}
+
 std::string forces(const GrainView& view) {
     std::string text = "force_over_mean,probability_density\n";
     const Histogram histogram = force_distribution(view, force_bin);
@@ -32,19 +41,29 @@ std::string forces(const GrainView& view) {
 std::string chains(const GrainView& view) {
     std::string text = "grain,chain,stress_xx,stress_yy,stress_xy\n";
     const ForceChains found = force_chains(view, chain_turn);
-    for (std::size_t g = 0; g < view.size(); ++g) {
+    for (std::size_t g = 0; g < view.free_size(); ++g) {
         const Mat2& s = found.stress[g];
         text += fmt::format("{},{},{},{},{}\n", g, found.chain[g], s(0, 0), s(1, 1), s(0, 1));
     }
     return text;
 }
 
+std::string grains(const GrainView& view) {
+    std::string text = fmt::format("# time {} s\ngrain,x,y,vx,vy,radius,driven\n", view.time);
+    for (std::size_t g = 0; g < view.size(); ++g)
+        text += fmt::format("{},{},{},{},{},{},{}\n", g, view.centroid[g].x(), view.centroid[g].y(),
+                            view.velocity[g].x(), view.velocity[g].y(), radius_of(view, g),
+                            g < view.free_size() ? 0 : 1);
+    return text;
+}
+
 std::string correlation(const GrainView& view) {
     double radii = 0.0;
-    for (const double area : view.reference_area) radii += std::sqrt(area / std::numbers::pi);
-    const double diameter = 2.0 * radii / static_cast<double>(view.size());
+    for (std::size_t g = 0; g < view.free_size(); ++g) radii += radius_of(view, g);
+    const double diameter = 2.0 * radii / static_cast<double>(view.free_size());
     std::string text = "distance,pair_correlation\n";
-    const Histogram g = pair_correlation(view.centroid, view.box, distance_bin * diameter, reach * diameter);
+    const Histogram g =
+        pair_correlation(free_centres(view), view.box, distance_bin * diameter, reach * diameter);
     for (std::size_t k = 0; k < g.value.size(); ++k) text += fmt::format("{},{}\n", g.middle(k), g.value[k]);
     return text;
 }
@@ -60,7 +79,7 @@ std::string centres_text(const GrainView& view) {
     std::string text =
         fmt::format("# the box's origin and its two sides, then the grains\nx,y\n{},{}\n{},0\n{},{}\n",
                     b.position[0], b.position[2], b.width(), b.tilt, b.height());
-    for (const Vec2& x : view.centroid) text += fmt::format("{},{}\n", x.x(), x.y());
+    for (const Vec2& x : free_centres(view)) text += fmt::format("{},{}\n", x.x(), x.y());
     return text;
 }
 
@@ -113,6 +132,7 @@ void MeasureWriter::observe(const GrainView& view, const Sample& sample) {
     };
     write("forces", forces);
     write("chains", chains);
+    write("grains", grains);
     write("pair_correlation", correlation);
     if (wanted("tessellation")) write_tessellation(view, sample.frame);
 }
@@ -120,12 +140,14 @@ void MeasureWriter::observe(const GrainView& view, const Sample& sample) {
 void MeasureWriter::write_tessellation(const GrainView& view, int frame) const {
     write_file_atomically(path("centres", frame), centres_text(view));
     const Centres before = read_centres(path("centres", std::max(0, frame - 1)), view.box.periodic);
-    const Tessellation tessellation = tessellate(view.centroid, view.box);
-    const auto gradient = local_gradients(tessellation, before.position, before.box, view.centroid, view.box);
-    const auto voids = void_ratios(tessellation, view.centroid, view.box, view.reference_area);
+    const Tessellation tessellation = tessellate(free_centres(view), view.box);
+    const auto gradient =
+        local_gradients(tessellation, before.position, before.box, free_centres(view), view.box);
+    const auto voids =
+        void_ratios(tessellation, free_centres(view), view.box, view.reference_area.first(view.free_size()));
     std::string text = "x0,y0,x1,y1,x2,y2,void_ratio,strain_xx,strain_yy,strain_xy\n";
     for (std::size_t t = 0; t < voids.size(); ++t) {
-        for (const Vec2& corner : tessellation.corners(t, view.centroid, view.box))
+        for (const Vec2& corner : tessellation.corners(t, free_centres(view), view.box))
             text += fmt::format("{},{},", corner.x(), corner.y());
         const Mat2 strain = Mat2::Identity() - 0.5 * (gradient[t] + gradient[t].transpose());
         text += fmt::format("{},{},{},{}\n", voids[t], strain(0, 0), strain(1, 1), strain(0, 1));

@@ -13,10 +13,11 @@ namespace softgrain {
 /// What sampling.measures may name:
 /// - forces: how normal forces between grains are distributed;
 /// - chains: stress of each grain from its contacts, and the force chain it belongs to;
+/// - grains: centre, velocity, radius, and whether it is driven, of each grain;
 /// - pair_correlation: g(r);
 /// - tessellation: triangles between grain centres with void ratio and strain since the last frame.
-inline constexpr std::array<std::string_view, 4> measure_names{"forces", "chains", "pair_correlation",
-                                                               "tessellation"};
+inline constexpr std::array<std::string_view, 5> measure_names{"forces", "chains", "grains",
+                                                               "pair_correlation", "tessellation"};
 
 /// The names in a list parted by commas.
 std::vector<std::string> measures_in(std::string_view list);

@@ -49,9 +49,9 @@ void check_radii(const CheckedTable& packing, ErrorList& errors) {
 
 void check_generator(const CheckedTable& packing, const CheckedTable& box, ErrorList& errors) {
     if (!packing.sound({"generator"}) || !box.sound({"periodic"})) return;
-    for (const KeyFault& fault :
-         generator_faults(generator_of(packing.settings), packing.has("packing_fraction"),
-                          box.settings.boolean("periodic")))
+    for (const KeyFault& fault : generator_faults(generator_of(packing.settings),
+                                                  packing.has("packing_fraction") || packing.has("region"),
+                                                  box.settings.boolean("periodic")))
         errors.add(packing.place_of(fault.key), packing.full(fault.key), fault.message);
 }
 
@@ -93,6 +93,14 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
             errors.add(box.place_of("height"), box.full("height"),
                        fmt::format("must be within a factor of {} of box.width", largest_aspect_ratio));
     }
+}
+
+void check_gravity(const CheckedTable& box, ErrorList& errors) {
+    if (!box.sound({"periodic"}) || !box.settings.boolean("periodic")) return;
+    for (const std::string_view key : {"gravity_x", "gravity_y"})
+        if (box.sound({key}) && box.settings.number(key) != 0.0)
+            errors.add(box.place_of(key), box.full(key),
+                       "needs walls that carry the weight: set box.periodic = false, or leave it out");
 }
 
 void check_sampling(const CheckedTable& sampling, ErrorList& errors) {

@@ -17,6 +17,9 @@ void check_stage(std::span<const CheckedTable> stages, std::size_t number, const
 /// Each until_strain and until_shear lies ahead of where its stage begins, as far as that is known.
 void check_course(std::span<const CheckedTable> stages, ErrorList& errors);
 
+/// A periodic cell has no gravity.
+void check_gravity(const CheckedTable& box, ErrorList& errors);
+
 /// Every name in sampling.measures is known and stands there once.
 void check_sampling(const CheckedTable& sampling, ErrorList& errors);
 

@@ -10,6 +10,7 @@
 #include "common/io/scenario_checks.hpp"
 #include "common/io/scenario_clumps.hpp"
 #include "common/io/scenario_document.hpp"
+#include "common/io/scenario_driven.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_overrides.hpp"
 #include "common/io/scenario_schema.hpp"
@@ -23,6 +24,7 @@ using namespace scenario_io;
 
 constexpr std::size_t most_classes = 255;  // a grain's class is kept in a byte
 constexpr std::size_t most_stages = 10000;
+constexpr std::size_t most_driven = 1000;
 
 Material material_of(const Settings& s) {
     return {s.number("youngs_modulus"),
@@ -70,7 +72,8 @@ Sampling sampling_of(const Settings& s) {
             s.boolean("outlines"),
             s.boolean("contacts"),
             s.boolean("parts"),
-            measures_in(s.text("measures"))};
+            measures_in(s.text("measures")),
+            optional_number(s, "time_interval")};
 }
 
 /// Reads one document: checks every table, remembers every error.
@@ -97,9 +100,18 @@ class Reader {
         const CheckedTable box = table("box");
         const std::filesystem::path folder = source_.parent_path();
         check_packing(packing, box, folder, errors_);
+        check_region(packing, box, errors_);
         scenario.packing = packing_of(packing, folder);
-        scenario.box = {optional_number(box.settings, "width"), optional_number(box.settings, "height"),
-                        box.settings.boolean("periodic")};
+        scenario.packing.region = region_of(packing.settings, box.settings);
+        for (const CheckedTable& driven : repeated("driven", most_driven)) {
+            check_driven(driven, errors_);
+            scenario.driven.push_back(driven_of(driven.settings));
+        }
+        scenario.box = {optional_number(box.settings, "width"),
+                        optional_number(box.settings, "height"),
+                        box.settings.boolean("periodic"),
+                        {box.settings.number("gravity_x"), box.settings.number("gravity_y")}};
+        check_gravity(box, errors_);
         scenario.loading = stages(box);
         const CheckedTable sampling = table("sampling");
         check_sampling(sampling, errors_);

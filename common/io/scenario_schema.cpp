@@ -93,6 +93,34 @@ const std::vector<KeySpec> packing_keys{
      "of "
      "the discs around them)",
      fraction},
+    {"region", text, Value(), "",
+     "part of the box that random_sequential fills; radii then stay as they are and the box is box.width by "
+     "box.height",
+     any_number, words(region_names)},
+    {"region_x", number, Value(), "m", "middle of the region; of the box if not given"},
+    {"region_y", number, Value(), "m", "middle of the region; of the box if not given"},
+    {"region_radius", number, Value(), "m", "of a disc", positive},
+    {"region_width", number, Value(), "m", "of a rectangle", positive},
+    {"region_height", number, Value(), "m", "of a rectangle", positive},
+};
+
+const std::vector<KeySpec> driven_keys{
+    {"kind", text, Value(std::string(driven_kind_names[0])), "",
+     "ring: about a centre, with a spin; row: from one point to another, with a velocity", any_number,
+     words(driven_kind_names)},
+    {"disc_radius", number, DrivenGrains{}.disc_radius, "m", "of each disc", positive},
+    {"spacing", number, DrivenGrains{}.spacing, "disc diameters",
+     "largest distance of neighbours; they do not press on each other", Range{0.0, 10.0, true}},
+    {"center_x", number, Value(), "m", "of a ring, from the box's lower left corner"},
+    {"center_y", number, Value(), "m", "of a ring, from the box's lower left corner"},
+    {"radius", number, Value(), "m", "of a ring: of the circle through its discs' centres", positive},
+    {"spin", number, Value(), "1/s", "of a ring, counter-clockwise; 0 if not given"},
+    {"from_x", number, Value(), "m", "centre of a row's first disc"},
+    {"from_y", number, Value(), "m", "centre of a row's first disc"},
+    {"to_x", number, Value(), "m", "centre of a row's last disc"},
+    {"to_y", number, Value(), "m", "centre of a row's last disc"},
+    {"velocity_x", number, Value(), "m/s", "of a row; 0 if not given"},
+    {"velocity_y", number, Value(), "m/s", "of a row; 0 if not given"},
 };
 
 const std::vector<KeySpec> box_keys{
@@ -100,6 +128,8 @@ const std::vector<KeySpec> box_keys{
      positive},
     {"height", number, Value(), "m", "of the box", positive},
     {"periodic", boolean, Value(false), "", "a periodic cell instead of walls"},
+    {"gravity_x", number, Value(0.0), "m/s^2", "body force / mass, of a box with walls"},
+    {"gravity_y", number, Value(0.0), "m/s^2", "body force / mass, of a box with walls; negative: downwards"},
 };
 
 const std::vector<KeySpec> loading_keys{
@@ -167,6 +197,8 @@ const std::vector<KeySpec> sampling_keys{
     {"strain_interval", number, Sampling{}.strain_interval, "",
      "strain between two rows of the history; where a stage goes to a stress, largest strain rate times time",
      Range{0.0, 1.0, true, false}},
+    {"time_interval", number, Value(), "s", "time between two rows of a hold; a tenth of it if not given",
+     positive},
     {"average_window", number, Sampling{}.average_window, "",
      "share of the interval before a sample over which stresses are averaged", Range{0.0, 1.0}},
     {"frame_every", integer, Value(std::int64_t{Sampling{}.frame_every}), "", "samples for one VTK frame",
@@ -176,13 +208,14 @@ const std::vector<KeySpec> sampling_keys{
     {"parts", boolean, Value(Sampling{}.parts), "",
      "write what grains are made of, such as the discs of bpm; a method without parts writes nothing more"},
     {"measures", text, Value(std::string()), "",
-     "written at every frame as measures/<name>_<frame>.csv: names out of forces (their distribution), "
+     "written at every frame as measures/<name>_<frame>.csv: names out of grains (centre, velocity, "
+     "radius), forces (their distribution), "
      "chains "
      "(stress of grains and force chains), pair_correlation, tessellation (void ratio and strain since the "
      "last frame in triangles between centres), parted by commas"},
 };
 
-const std::array<TableSpec, 8> tables{{
+const std::array<TableSpec, 9> tables{{
     {"", "", top_keys},
     {"random", "Random numbers.", random_keys},
     {"material", "The grains' material, plane strain, per unit thickness.", material_keys},
@@ -190,6 +223,8 @@ const std::array<TableSpec, 8> tables{{
      "A share of the grains with its own material or shape; none: all grains are discs of [material].",
      class_keys, true},
     {"packing", "The initial grains: a file (path) or a generator (all other keys).", packing_keys},
+    {"driven", "Discs that move as they are told, whatever pushes them; they come after the packing's.",
+     driven_keys, true},
     {"box", "The container.", box_keys},
     {"loading", "A stage of the loading; the first `until_...` that is reached ends it, or its duration.",
      loading_keys, true},

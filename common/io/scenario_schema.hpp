@@ -17,6 +17,8 @@ inline constexpr std::array<std::string_view, 10> loading_kind_names{
     "isotropic", "oedometric", "hold",   "shear", "gradient",
     "uniaxial",  "biaxial",    "stress", "probe", "repeat"};
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
+inline constexpr std::array<std::string_view, 2> region_names{"disc", "rectangle"};
+inline constexpr std::array<std::string_view, 2> driven_kind_names{"ring", "row"};
 
 struct TableSpec {
     std::string_view name;  ///< "" for the keys before the first table

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/io/scenario_clumps.hpp"
+#include "common/io/scenario_driven.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/io/scenario_schema.hpp"
 #include "common/io/scenario_stages.hpp"
@@ -95,6 +96,7 @@ Settings settings_of(const PackingSpec& p) {
     s.set("fractal_dimension", p.fractal_dimension);
     s.set("small_share", p.small_share);
     set_optional(s, "packing_fraction", p.packing_fraction);
+    set_region(s, p.region);
     return s;
 }
 
@@ -107,6 +109,7 @@ Settings settings_of(const Sampling& sampling) {
     s.set("contacts", sampling.contacts);
     s.set("parts", sampling.parts);
     s.set("measures", fmt::format("{}", fmt::join(sampling.measures, ", ")));
+    set_optional(s, "time_interval", sampling.time_interval);
     return s;
 }
 
@@ -121,6 +124,8 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
         set_optional(s, "width", scenario.box.width);
         set_optional(s, "height", scenario.box.height);
         s.set("periodic", scenario.box.periodic);
+        s.set("gravity_x", scenario.box.gravity.x());
+        s.set("gravity_y", scenario.box.gravity.y());
     }
     if (table == "sampling") return {settings_of(scenario.sampling)};
     const auto each = [](const auto& entries) {
@@ -129,6 +134,7 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
         return all;
     };
     if (table == "grain_class") return each(scenario.classes);
+    if (table == "driven") return each(scenario.driven);
     if (table == "loading") return each(scenario.loading);
     return {s};
 }

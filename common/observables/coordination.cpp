@@ -31,7 +31,7 @@ std::vector<bool> find_rattlers(const PairsOfGrain& pairs_of, const std::vector<
 }  // namespace
 
 Coordination coordination(const GrainView& view) {
-    const auto n = view.size();
+    const auto n = view.free_size();
     std::vector<int> touching(n, 0);
     std::vector<Pair> pairs;
     int wall_contacts = 0;
@@ -42,7 +42,7 @@ Coordination coordination(const GrainView& view) {
         before = &c;
         if (again) continue;
         ++touching[static_cast<std::size_t>(c.i)];
-        if (c.with_wall()) {
+        if (view.at_boundary(c)) {
             ++wall_contacts;
         } else {
             ++touching[static_cast<std::size_t>(c.j)];

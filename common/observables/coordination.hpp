@@ -5,7 +5,7 @@
 namespace softgrain {
 
 /// PHYSICS conventions: Z = 2 N_gg / N, N_gg pairs of grains in however many places they touch; a rattler has
-/// fewer than 2 contacts (walls count), removed repeatedly.
+/// fewer than 2 contacts (walls count), removed repeatedly. A driven grain counts as a wall.
 struct Coordination {
     double all;               ///< 2 N_gg / N over all grains
     double without_rattlers;  ///< the same over grains that carry load; 0 if there are none

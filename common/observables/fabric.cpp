@@ -13,7 +13,7 @@ Fabric fabric(const GrainView& view) {
     Mat2 sum = Mat2::Zero();
     double contacts = 0.0;
     for (const GrainContact& c : view.contacts) {
-        if (c.with_wall()) continue;
+        if (view.at_boundary(c)) continue;
         sum += c.normal * c.normal.transpose();
         contacts += 1.0;
     }

@@ -26,10 +26,10 @@ Major major_of(const Mat2& stress) {
 }
 
 std::vector<Mat2> grain_stresses(const GrainView& view) {
-    std::vector<Mat2> stress(view.size(), Mat2::Zero());
+    std::vector<Mat2> stress(view.free_size(), Mat2::Zero());
     for (const GrainContact& c : view.contacts) {
         const Vec2 whole = branch(view, c);
-        if (c.with_wall()) {
+        if (view.at_boundary(c)) {
             stress[at(c.i)] -= c.force * whole.transpose();
             continue;
         }
@@ -66,13 +66,13 @@ void number_chains(std::vector<int>& linked_with, ForceChains& result) {
 Histogram force_distribution(const GrainView& view, double bin) {
     double sum = 0.0, pressing = 0.0;
     for (const GrainContact& c : view.contacts)
-        if (!c.with_wall() && c.normal_force() > 0.0) {
+        if (!view.at_boundary(c) && c.normal_force() > 0.0) {
             sum += c.normal_force();
             pressing += 1.0;
         }
     Histogram result{bin, {}};
     for (const GrainContact& c : view.contacts) {
-        if (c.with_wall() || !(c.normal_force() > 0.0)) continue;
+        if (view.at_boundary(c) || !(c.normal_force() > 0.0)) continue;
         const auto k = static_cast<std::size_t>(c.normal_force() * pressing / sum / bin);
         if (k >= result.value.size()) result.value.resize(k + 1, 0.0);
         result.value[k] += 1.0 / (pressing * bin);
@@ -86,12 +86,12 @@ ForceChains force_chains(const GrainView& view, double turn) {
     double mean = 0.0;
     for (const Mat2& stress : result.stress) {
         major.push_back(major_of(stress));
-        mean += major.back().stress / static_cast<double>(view.size());
+        mean += major.back().stress / static_cast<double>(view.free_size());
     }
-    std::vector<int> linked_with(view.size());
+    std::vector<int> linked_with(view.free_size());
     std::iota(linked_with.begin(), linked_with.end(), 0);
     for (const GrainContact& c : view.contacts) {
-        if (c.with_wall()) continue;
+        if (view.at_boundary(c)) continue;
         const Vec2 way = branch(view, c).normalized();
         const auto follows = [&](int g) {
             const Major& m = major[at(g)];

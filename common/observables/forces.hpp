@@ -13,9 +13,10 @@ Histogram force_distribution(const GrainView& view, double bin);
 
 /// Force chains after Peters et al. 2005, Phys. Rev. E 72, 041307.
 struct ForceChains {
-    /// [n] sum of -f (x) (arm to the contact) / reference area, compression positive, symmetric [N/m]
+    /// [free grains] sum of -f (x) (arm to the contact) / reference area, compression positive, symmetric
+    /// [N/m]
     std::vector<Mat2> stress;
-    std::vector<int> chain;  ///< [n] number of the chain, by its first grain; -1 for grains in none
+    std::vector<int> chain;  ///< [free grains] number of the chain, by its first grain; -1 for grains in none
     int chains = 0;          ///< of 3 grains or more
 };
 

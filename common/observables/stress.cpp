@@ -1,5 +1,7 @@
 #include "common/observables/stress.hpp"
 
+#include <algorithm>
+
 namespace softgrain {
 
 Vec2 wall_stress(const std::array<Vec2, 4>& wall_force, const Box& box) {
@@ -18,7 +20,7 @@ Mat2 boundary_stress(const std::array<Vec2, 4>& wall_force, const Mat2& cell_str
 
 Vec2 branch(const GrainView& view, const GrainContact& contact) {
     const Vec2& from = view.centroid[static_cast<std::size_t>(contact.i)];
-    if (contact.with_wall()) return contact.point - from;
+    if (view.at_boundary(contact)) return contact.point - from;
     const Vec2 to_other = view.centroid[static_cast<std::size_t>(contact.j)] - from;
     return view.box.periodic ? view.box.nearest(to_other) : to_other;
 }
@@ -30,18 +32,23 @@ Mat2 love_weber_stress(const GrainView& view) {
 }
 
 double unbalanced_force(const GrainView& view) {
-    if (view.contacts.empty()) return 0.0;
-    std::vector<Vec2> net(view.size(), Vec2::Zero());
-    double contact_force = 0.0;
+    std::vector<Vec2> net(view.free_size(), Vec2::Zero());
+    double mean_weight = 0.0, contact_force = 0.0;
+    if (!view.gravity.isZero(0.0))
+        for (std::size_t g = 0; g < view.free_size(); ++g) {
+            net[g] = view.mass[g] * view.gravity;
+            mean_weight += net[g].norm() / static_cast<double>(view.free_size());
+        }
     for (const GrainContact& c : view.contacts) {
         net[static_cast<std::size_t>(c.i)] += c.force;
-        if (!c.with_wall()) net[static_cast<std::size_t>(c.j)] -= c.force;
+        if (!view.at_boundary(c)) net[static_cast<std::size_t>(c.j)] -= c.force;
         contact_force += c.force.norm();
     }
     double unbalanced = 0.0;
     for (const Vec2& f : net) unbalanced += f.norm();
-    contact_force /= static_cast<double>(view.contacts.size());
-    return contact_force > 0.0 ? unbalanced / static_cast<double>(view.size()) / contact_force : 0.0;
+    if (!view.contacts.empty()) contact_force /= static_cast<double>(view.contacts.size());
+    const double scale = std::max(contact_force, mean_weight);
+    return scale > 0.0 ? unbalanced / static_cast<double>(view.free_size()) / scale : 0.0;
 }
 
 }  // namespace softgrain

@@ -18,6 +18,11 @@ double sum(std::span<const double> values) {
     return total;
 }
 
+/// Of the free grains [m^2].
+double undeformed_area(const GrainView& view) {
+    return sum(view.reference_area.first(view.free_size()));
+}
+
 /// Of the walls or of the periodic cell.
 Mat2 stress(const Frame& f) {
     return boundary_stress(f.wall_force, f.cell_stress, f.view.box);
@@ -32,7 +37,7 @@ double inertial_number(const Frame& f) {
     const double p = mean_stress(f);
     if (f.strain_rate == 0.0) return 0.0;
     if (!(p > 0.0)) return std::nan("");
-    const double mean_area = sum(f.view.reference_area) / static_cast<double>(f.view.size());
+    const double mean_area = undeformed_area(f.view) / static_cast<double>(f.view.free_size());
     return f.strain_rate * 2.0 * std::sqrt(mean_area / M_PI) * std::sqrt(f.density / p);
 }
 
@@ -51,7 +56,7 @@ constexpr std::array table{
     Observable{"packing_fraction", "", N::area,
                [](const Frame& f) { return f.view.covered_area / f.view.box.area(); }},
     Observable{"packing_fraction_undeformed", "", N::base,
-               [](const Frame& f) { return sum(f.view.reference_area) / f.view.box.area(); }},
+               [](const Frame& f) { return undeformed_area(f.view) / f.view.box.area(); }},
     Observable{"coordination_number", "", N::contacts,
                [](const Frame& f) { return coordination(f.view).all; }},
     Observable{"coordination_number_no_rattlers", "", N::contacts,

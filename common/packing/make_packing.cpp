@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/packing/driven_grains.hpp"
+#include "common/packing/fill_region.hpp"
 #include "common/packing/generators.hpp"
 #include "common/packing/grain_classes.hpp"
 #include "common/packing/packing_csv.hpp"
@@ -39,10 +41,7 @@ Packing from_file(const Scenario& scenario) {
     return packing;
 }
 
-}  // namespace
-
-Packing make_packing(const Scenario& scenario) {
-    if (scenario.packing.path) return from_file(scenario);
+Packing generated(const Scenario& scenario) {
     const BoxSpec& box = scenario.box;
     const bool sized = box.width && box.height;
     Random random(scenario.seed);
@@ -54,17 +53,28 @@ Packing make_packing(const Scenario& scenario) {
     shapes.clumps = clump_shapes(scenario);
     const std::vector<double> elongation = elongations(shapes);
     if (!elongation.empty()) shapes.angle = draw_angles(scenario, n);
+    const std::vector<double> around = radii_of_discs_around(shapes.radius, elongation);
+    const std::optional<PackingRegion>& region = scenario.packing.region;
     const PackingRequest request{.aspect_ratio = sized ? *box.height / *box.width : 1.0,
                                  .packing_fraction = scenario.packing.packing_fraction,
                                  .periodic = box.periodic,
                                  .grain_share = share_of_discs_around(shapes.radius, elongation)};
-    const Packing discs = generate(scenario.packing.generator,
-                                   radii_of_discs_around(shapes.radius, elongation), request, random);
+    const Packing discs =
+        region ? fill_region(around, *region, Box{{0.0, box.width.value(), 0.0, box.height.value()}}, random)
+               : generate(scenario.packing.generator, around, request, random);
     Packing packing = std::move(shapes);
     packing.box = discs.box;
     packing.center = discs.center;
     packing.frame = discs.frame;
-    if (sized) scale_to(packing, *box.width, *box.height);
+    if (sized && !region) scale_to(packing, *box.width, *box.height);
+    return packing;
+}
+
+}  // namespace
+
+Packing make_packing(const Scenario& scenario) {
+    Packing packing = scenario.packing.path ? from_file(scenario) : generated(scenario);
+    add_driven_grains(scenario, packing);
     return packing;
 }
 

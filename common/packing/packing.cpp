@@ -35,9 +35,15 @@ Mat2 Packing::shape_of(std::size_t grain) const {
     return turn * half_axes(grain).asDiagonal() * turn.transpose();
 }
 
+Vec2 DrivenMotion::position(const Vec2& x, double time) const {
+    const double c = std::cos(spin * time), s = std::sin(spin * time);
+    const Vec2 arm = x - pivot;
+    return pivot + Vec2{c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y()} + velocity * time;
+}
+
 double Packing::packing_fraction_undeformed() const {
     double area = 0.0;
-    for (double r : radius) area += std::numbers::pi * r * r;
+    for (std::size_t g = 0; g < free_size(); ++g) area += std::numbers::pi * radius[g] * radius[g];
     return area / box.area();
 }
 

@@ -232,7 +232,7 @@ void write_packing_csv(const std::filesystem::path& path, const Packing& packing
                                    packing.box.height(), packing.box.periodic ? ", box.periodic = true" : "",
                                    has_classes ? ",class" : "", has_ellipses ? ",aspect_ratio" : "",
                                    has_angles ? ",angle" : "");
-    for (std::size_t k = 0; k < packing.size(); ++k) {
+    for (std::size_t k = 0; k < packing.free_size(); ++k) {
         text += fmt::format("{},{},{}", packing.center[k].x() - packing.box.position[0],
                             packing.center[k].y() - packing.box.position[2], packing.radius[k]);
         if (has_classes) text += fmt::format(",{}", packing.grain_class[k]);

@@ -17,8 +17,8 @@ inline constexpr double tolerated_overlap = 0.01;
 Packing read_packing_csv(const std::filesystem::path& path, const Box& box, std::size_t classes = 1,
                          std::vector<ClumpShape> clumps = {});
 
-/// Digits that read back to the same bits; from the box's lower left corner; its size stands in a comment.
-/// Throws OutputError.
+/// The free grains. Digits that read back to the same bits; from the box's lower left corner; its size stands
+/// in a comment. Throws OutputError.
 void write_packing_csv(const std::filesystem::path& path, const Packing& packing);
 
 }  // namespace softgrain

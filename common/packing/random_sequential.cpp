@@ -14,14 +14,6 @@ namespace {
 
 constexpr int most_trials = 1'000'000;  // for one disc
 
-std::vector<std::size_t> largest_first(const std::vector<double>& radii) {
-    std::vector<std::size_t> order(radii.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
-    return order;
-}
-
 /// Of the centre of a disc, along one axis.
 double coordinate(double radius, double length, bool periodic, Random& random) {
     return periodic ? random.between(0.0, length) : random.between(radius, length - radius);
@@ -35,6 +27,14 @@ double coordinate(double radius, double length, bool periodic, Random& random) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> largest_first(const std::vector<double>& radii) {
+    std::vector<std::size_t> order(radii.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+    return order;
+}
 
 Packing random_sequential(const std::vector<double>& radii, const PackingRequest& request, Random& random) {
     const double fraction = request.disc_fraction_or(1.0);

@@ -14,4 +14,7 @@ namespace softgrain {
 /// the fraction that was reached, if a disc finds no room in a million trials.
 Packing random_sequential(const std::vector<double>& radii, const PackingRequest& request, Random& random);
 
+/// Places of the radii, by size.
+std::vector<std::size_t> largest_first(const std::vector<double>& radii);
+
 }  // namespace softgrain

@@ -15,7 +15,9 @@ GrainContact contact(double angle, int j = 1) {
 }
 
 Fabric of(const std::vector<GrainContact>& contacts) {
+    const std::vector<Vec2> two(2, Vec2::Zero());
     GrainView view;
+    view.centroid = two;
     view.contacts = contacts;
     return fabric(view);
 }

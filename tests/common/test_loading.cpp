@@ -277,6 +277,12 @@ TEST(Loading, AHoldEndsInEquilibriumAndLooksAtContactsOnlyThen) {
     EXPECT_NEAR(whole.state().time, 10.0, 1e-9);
     EXPECT_EQ(unasked.looks, 11) << "at its samples only";
 
+    Scenario often = long_hold;
+    often.sampling.time_interval = 0.5;
+    TimeLoop sampled(often, hundred(), unasked, {});
+    sampled.go(never);
+    EXPECT_EQ(sampled.state().history.size(), 21U) << "every half second";
+
     hold.until_unbalanced = 0.001;
     SettlingGrains grains(hundred());
     const Scenario scenario = with_stages({hold});

@@ -104,6 +104,22 @@ TEST_F(MeasureFiles, OnlyWhatWasAskedForAtFramesOnly) {
     EXPECT_EQ(g.rows(), static_cast<std::size_t>(0.5 * box.spacing() / (0.05 * diameter)));
 }
 
+TEST_F(MeasureFiles, GrainsAreWrittenAsTheyAreAndDrivenOnesMarked) {
+    std::vector<Vec2> velocity(place.size(), Vec2{0.25, -0.5});
+    GrainView v = view();
+    v.velocity = velocity;
+    v.driven = 2;
+    MeasureWriter(folder, {"grains", "chains"}).observe(v, frame(0));
+    const History grains = file("grains_000000.csv");
+    ASSERT_EQ(grains.rows(), 60U);
+    EXPECT_EQ(grains.column("y")[7], place[7].y());
+    EXPECT_EQ(grains.column("vy")[7], -0.5);
+    EXPECT_DOUBLE_EQ(grains.column("radius")[0], std::sqrt(0.04 / std::numbers::pi));
+    EXPECT_EQ(grains.column("driven")[57], 0.0);
+    EXPECT_EQ(grains.column("driven")[58], 1.0);
+    EXPECT_EQ(file("chains_000000.csv").rows(), 58U);
+}
+
 TEST(Measures, AreNamedInALine) {
     EXPECT_TRUE(measures_in("").empty());
     EXPECT_EQ(measures_in(" forces ,chains"), (std::vector<std::string>{"forces", "chains"}));

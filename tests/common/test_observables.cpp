@@ -158,5 +158,22 @@ TEST(Stress, UnbalancedForceIsNetOverContactForce) {
     EXPECT_DOUBLE_EQ(unbalanced_force(view), 1.0);
 }
 
+/// A disc of weight 4 on the floor carries one of weight 6 that has just half its contact force.
+TEST(Stress, UnbalancedForceCountsTheWeights) {
+    const std::vector<Vec2> x{{0.0, 1.0}, {0.0, 3.0}};
+    const std::vector<double> mass{2.0, 3.0};
+    std::vector<GrainContact> contacts{{0, -3, {0.0, 0.0}, {0.0, -1.0}, {0.0, 10.0}, 0.0},
+                                       {0, 1, {0.0, 2.0}, {0.0, 1.0}, {0.0, -6.0}, 0.0}};
+    GrainView view;
+    view.centroid = x;
+    view.mass = mass;
+    view.gravity = {0.0, -2.0};
+    EXPECT_DOUBLE_EQ(unbalanced_force(view), 1.0) << "free fall";
+    view.contacts = contacts;
+    EXPECT_DOUBLE_EQ(unbalanced_force(view), 0.0);
+    contacts[1].force.y() = -3.0;
+    EXPECT_DOUBLE_EQ(unbalanced_force(view), 0.5 * (3.0 + 3.0) / 6.5);
+}
+
 }  // namespace
 }  // namespace softgrain

@@ -23,9 +23,9 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     Packing p;
     p.center = {{0.5, 0.5}};
     p.radius = {0.1};
-    for (const Feature feature :
-         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::clumps,
-          Feature::friction, Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+    for (const Feature feature : {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses,
+                                  Feature::clumps, Feature::friction, Feature::wall_friction,
+                                  Feature::cohesion, Feature::yield_stress, Feature::driven_grains})
         EXPECT_EQ(refusal(s, p, feature), "");
 
     s.material.friction = 0.3;
@@ -39,6 +39,10 @@ TEST(Refusals, NameWhatIsAskedAndTheCure) {
     EXPECT_NE(refusal(s, p, Feature::wall_friction).find("material.wall_friction = 0.1 is not"),
               std::string::npos);
     EXPECT_NE(refusal(s, p, Feature::cohesion).find("set material.cohesion = 0 or"), std::string::npos);
+    p.driven.resize(1);
+    EXPECT_EQ(refusal(s, p, Feature::driven_grains),
+              "[[driven]] is not for cubes: they are stiff; leave it out or run another method");
+    p.driven.clear();
     p.box.periodic = true;
     EXPECT_EQ(refusal(s, p, Feature::periodic_cell),
               "box.periodic = true is not for cubes: they are stiff; set box.periodic = false or run another "
@@ -74,9 +78,9 @@ TEST(Refusals, AreWhatTheTableOfFeaturesLeavesOut) {
         left_out += has_feature(refusals, row) ? 0 : 1;
     }
     EXPECT_EQ(left_out, 3);
-    for (const Feature feature :
-         {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses, Feature::clumps,
-          Feature::friction, Feature::wall_friction, Feature::cohesion, Feature::yield_stress})
+    for (const Feature feature : {Feature::periodic_cell, Feature::grain_classes, Feature::ellipses,
+                                  Feature::clumps, Feature::friction, Feature::wall_friction,
+                                  Feature::cohesion, Feature::yield_stress, Feature::driven_grains})
         EXPECT_TRUE(std::any_of(feature_rows().begin(), feature_rows().end(), [&](const FeatureRow& row) {
             return row.needs == feature;
         })) << "a feature without a row";

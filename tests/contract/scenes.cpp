@@ -8,12 +8,15 @@ const std::vector<Bands>& all_bands() {
     static const std::vector<Bands> table{
         // Elastic discs: rounding only, but for the damped approach to rest; edges of a cell drawn elsewhere
         // round otherwise (5e-13 seen in the stress). The ledger is good to the leap-frog (9e-5 seen).
-        {"sdem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-4, 1e-12, 400.0, 5e-3, 1e-3, 350.0, 1e-11},
+        {"sdem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-4, 1e-12, 400.0, 5e-3, 1e-3, 350.0, 0.5, 1e-10, 1e-6, 1e-6,
+         1e-11},
         // Aggregates: the rough rim finds its place at the start; rearranging discs amplify rounding (1e-9
         // seen between images); stick-slip never quite comes to rest; pores between the bumps of two grains
-        // that touch count as covered.
-        {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0, 0.07, 2e-3, 25.0},
-        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 5e-4, 700.0, 1e-8},
+        // that touch count as covered. A weight moves a disc in a step by less than the contact solver's
+        // tolerance: it is carried in the mean (3e-3 seen in the stress), not in every step.
+        {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0, 0.07, 2e-3, 25.0, 1.0, 1e-10, 0.02, 1.0},
+        {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 5e-4, 700.0, 1.0, 1e-10, 1e-6,
+         1e-6, 1e-8},
     };
     return table;
 }

@@ -103,6 +103,7 @@ TEST(Clumps, OfOneDiscMoveAsDiscs) {
     Packing clumps = discs;
     clumps.clumps = {clump_shape(std::vector<Disc>{{{0.0, 0.0}, 1.0}})};
     clumps.angle.assign(discs.size(), 0.3);
+    s.box.gravity = {1e-4, -2e-4};
     RigidDem a(s, discs), b(s, clumps);
     Box box = discs.box;
     const double dt = 0.1;
@@ -124,6 +125,7 @@ TEST(Clumps, OfOneDiscMoveAsDiscs) {
     EXPECT_NEAR(va.energy.elastic, vb.energy.elastic, 1e-10);
     EXPECT_NEAR(va.energy.kinetic, vb.energy.kinetic, 1e-10);
     EXPECT_NEAR(va.energy.friction, vb.energy.friction, 1e-10);
+    EXPECT_NEAR(va.energy.external_work, vb.energy.external_work, 1e-10);
     EXPECT_NEAR(va.energy.damping, vb.energy.damping, 1e-10);
     ASSERT_EQ(va.contacts.size(), vb.contacts.size());
     // Their bounds on the frequency are made differently, both from the same stiffness.

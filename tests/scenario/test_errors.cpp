@@ -276,9 +276,26 @@ const std::vector<Case> classes{
     in("[material]\ncohesion = -1", "s.toml:2:12: material.cohesion must be >= 0, got -1"),
     in("[material]\nyield_stress = 0", "s.toml:2:16: material.yield_stress must be > 0, got 0"),
     in("[box]\nperiodic = 1", "s.toml:2:12: box.periodic must be true or false, got the integer 1"),
+    in("[box]\nperiodic = true\ngravity_y = -9.81",
+       "s.toml:3:13: box.gravity_y needs walls that carry the weight: set box.periodic = false, or leave it "
+       "out"),
 };
 
 const std::vector<Case> packings{
+    in("[packing]\nregion = \"disc\"",
+       "s.toml:2:10: packing.region is filled at random places: set packing.generator = "
+       "\"random_sequential\""),
+    in("[packing]\nregion_radius = 1", "s.toml:2:17: packing.region_radius needs packing.region"),
+    in("[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"",
+       "s.toml:3:10: packing.region needs the size of its box: give box.width and box.height"),
+    in("[box]\nwidth = 1\nheight = 1\n[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"",
+       "s.toml:6:10: packing.region = \"disc\" needs region_radius"),
+    in("[box]\nwidth = 1\nheight = 1\n[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"\n"
+       "region_radius = 0.6",
+       "s.toml:6:10: packing.region must lie inside the box"),
+    in("[[driven]]\ncenter_x = 1\ncenter_y = 1", "s.toml:1:1: driven.0.kind = \"ring\" needs radius"),
+    in("[[driven]]\nkind = \"row\"\nfrom_x = 1\nfrom_y = 1\nto_x = 1\nto_y = 2\nspin = 1",
+       "s.toml:7:8: driven.0.spin is not for kind = \"row\": remove it"),
     in("[packing]\nradius_min = 1.1",
        "s.toml:2:14: packing.radius_min must be at most radius_mean = 1, got 1.1"),
     in("[packing]\nradius_mean = 2",
@@ -286,7 +303,7 @@ const std::vector<Case> packings{
     in("[packing]\nradius_max = 0.9",
        "s.toml:2:14: packing.radius_max must be at least radius_mean = 1, got 0.9"),
     in("[sampling]\nmeasures = \"forces, fabric\"",
-       "s.toml:2:12: sampling.measures names 'fabric', known are forces, chains, pair_correlation, "
+       "s.toml:2:12: sampling.measures names 'fabric', known are forces, chains, grains, pair_correlation, "
        "tessellation"),
     in("[sampling]\nmeasures = \"chains, forces,chains\"",
        "s.toml:2:12: sampling.measures names 'chains' twice"),

@@ -60,6 +60,21 @@ void expect_same(const PackingSpec& a, const PackingSpec& b) {
     EXPECT_EQ(a.fractal_dimension, b.fractal_dimension);
     EXPECT_EQ(a.small_share, b.small_share);
     EXPECT_EQ(a.packing_fraction, b.packing_fraction);
+    ASSERT_EQ(a.region.has_value(), b.region.has_value());
+    if (!a.region) return;
+    EXPECT_EQ(a.region->center, b.region->center);
+    EXPECT_EQ(a.region->radius, b.region->radius);
+    EXPECT_EQ(a.region->size, b.region->size);
+}
+
+void expect_same(const DrivenGrains& a, const DrivenGrains& b) {
+    EXPECT_EQ(a.ring, b.ring);
+    for (const auto member :
+         {&DrivenGrains::disc_radius, &DrivenGrains::spacing, &DrivenGrains::radius, &DrivenGrains::spin})
+        EXPECT_EQ(a.*member, b.*member);
+    for (const auto member :
+         {&DrivenGrains::center, &DrivenGrains::from, &DrivenGrains::to, &DrivenGrains::velocity})
+        EXPECT_EQ(a.*member, b.*member);
 }
 
 void expect_same(const Scenario& a, const Scenario& b) {
@@ -77,6 +92,7 @@ void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.box.width, b.box.width);
     EXPECT_EQ(a.box.height, b.box.height);
     EXPECT_EQ(a.box.periodic, b.box.periodic);
+    EXPECT_EQ(a.box.gravity, b.box.gravity);
     ASSERT_EQ(a.loading.size(), b.loading.size());
     for (std::size_t k = 0; k < a.loading.size(); ++k) expect_same(a.loading[k], b.loading[k]);
     EXPECT_EQ(a.sampling.strain_interval, b.sampling.strain_interval);
@@ -86,6 +102,9 @@ void expect_same(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.sampling.contacts, b.sampling.contacts);
     EXPECT_EQ(a.sampling.parts, b.sampling.parts);
     EXPECT_EQ(a.sampling.measures, b.sampling.measures);
+    EXPECT_EQ(a.sampling.time_interval, b.sampling.time_interval);
+    ASSERT_EQ(a.driven.size(), b.driven.size());
+    for (std::size_t k = 0; k < a.driven.size(); ++k) expect_same(a.driven[k], b.driven[k]);
     ASSERT_EQ(a.method_settings.size(), b.method_settings.size());
     for (const auto& [name, settings] : a.method_settings)
         EXPECT_EQ(settings.values(), b.method_settings.at(name).values()) << name;
@@ -127,6 +146,8 @@ packing_fraction = 0.6
 [box]
 width = 2
 height = 0.30000000000000004
+gravity_x = 0.1
+gravity_y = -9.81
 [[loading]]
 until_packing_fraction = 0.95
 until_stress = 1e20
@@ -161,6 +182,31 @@ cutoff = 0.1
     const std::string written = write_scenario(first, methods());
     expect_same(parse(written), first);
     EXPECT_EQ(write_scenario(parse(written), methods()), written);
+}
+
+TEST(Resolved, RegionsAndDrivenGrainsAreWrittenBack) {
+    const std::string box = "[box]\nwidth = 12\nheight = 10\n";
+    const std::string disc =
+        "[packing]\ngenerator = \"random_sequential\"\nregion = \"disc\"\nregion_y = 4\n"
+        "region_radius = 3\n";
+    const std::string rectangle =
+        "[packing]\ngenerator = \"random_sequential\"\nregion = \"rectangle\"\n"
+        "region_width = 3\nregion_height = 2\n";
+    const std::string driven =
+        "[[driven]]\ncenter_x = 5\ncenter_y = 4\nradius = 3.5\ndisc_radius = 0.1\nspin = -0.2\n"
+        "[[driven]]\nkind = \"row\"\nfrom_x = 0\nfrom_y = 1\nto_x = 2\nto_y = 3\nspacing = 0.5\n"
+        "velocity_y = 0.25\n[sampling]\ntime_interval = 0.5\n";
+    for (const std::string& packing : {disc, rectangle}) {
+        const Scenario first = parse(box + packing + driven + std::string(stage));
+        expect_same(parse(write_scenario(first, methods())), first);
+        ASSERT_TRUE(first.packing.region.has_value());
+        EXPECT_EQ(first.packing.region->center.x(), 6.0) << "the middle of the box";
+        ASSERT_EQ(first.driven.size(), 2U);
+        EXPECT_TRUE(first.driven[0].ring);
+        EXPECT_EQ(first.driven[0].spin, -0.2);
+        EXPECT_EQ(first.driven[1].to, Vec2(2.0, 3.0));
+        EXPECT_EQ(first.driven[1].velocity, Vec2(0.0, 0.25));
+    }
 }
 
 TEST(Resolved, ClassesTakeWhatTheyDoNotSayFromTheMaterial) {
