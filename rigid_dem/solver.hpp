@@ -79,8 +79,9 @@ class RigidDem final : public Solver {
     Deformation deformation_since_listing(double& loss) const;
 
     // driven grains
-    std::size_t free_grains() const { return radius_.size() - driven_.size(); }
-    bool is_driven(std::size_t grain) const { return grain >= free_grains(); }
+    std::size_t free_grains() const { return reference_area_.size() - driven_.size(); }
+    /// Never a disc of a clump: there are no driven grains beside clumps.
+    bool is_driven(std::size_t grain) const { return !driven_.empty() && grain >= free_grains(); }
     void start_driven();
     void move_driven(double time, double dt);
     void take_driven_forces();
