@@ -194,7 +194,8 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
                       state_.initial_energy,
                       state_.mean_force,
                       state_.mean_cell_stress,
-                      state_.step};
+                      state_.step,
+                      state_.stage};
     std::vector<double> row;
     for (const Observable& o : observables()) row.push_back(o.measure(frame));
     state_.history.push_back(row);

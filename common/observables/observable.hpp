@@ -18,6 +18,7 @@ struct Frame {
     std::array<Vec2, 4> wall_force;  ///< mean since the last check of the loop [N]
     Mat2 cell_stress;                ///< the same, of a periodic cell; zero with walls [N/m]
     long long step;
+    int stage = 0;  ///< of the loading, in the order of the run
 };
 
 struct Observable {

@@ -108,6 +108,7 @@ constexpr std::array table{
     Observable{"fabric_anisotropy", "", N::contacts,
                [](const Frame& f) { return fabric(f.view).anisotropy; }},
     Observable{"fabric_angle", "rad", N::contacts, [](const Frame& f) { return fabric(f.view).angle; }},
+    Observable{"stage", "", N::base, [](const Frame& f) { return static_cast<double>(f.stage + 1); }},
 };
 
 }  // namespace

@@ -215,6 +215,10 @@ TEST(Loading, CyclesComeBack) {
     EXPECT_NEAR(end.box.height(), 9.9, 1e-9);
     EXPECT_NEAR(end.time, 20.0 + 9.0 * 10.0, 1e-6) << "2 %, then nine half cycles of 1 %";
     EXPECT_EQ(end.history.size(), 1U + 20U + 9U * 10U);
+    const std::size_t stage = observable_index("stage");
+    EXPECT_EQ(end.history[20][stage], 1.0);  // the last sample of a stage belongs to it
+    EXPECT_EQ(end.history[21][stage], 2.0);
+    EXPECT_EQ(end.history.back()[stage], 10.0);
 }
 
 TEST(Loading, TimeEndsAnyStage) {
