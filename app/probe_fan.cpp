@@ -85,6 +85,8 @@ int probe_fan(const ProbeFanRequest& request) {
             fmt::format("{}: a fan needs stages that lead to a state, and then, as the last [[loading]], "
                         "one with kind = \"probe\"",
                         scenario.source.string()));
+    std::vector<const Method*> chosen;
+    for (const std::string& name : request.methods) chosen.push_back(&find_method(name));
     const bool by_stress = scenario.loading.back().seeks_stress();
     Scenario before = scenario;
     before.loading.pop_back();
@@ -92,14 +94,14 @@ int probe_fan(const ProbeFanRequest& request) {
     const Packing packing = make_packing(scenario);
     std::vector<Fan> fans;
     int worst = 0;
-    for (const std::string& name : request.methods) {
-        const Method& method = find_method(name);
+    for (const Method* method : chosen) {
+        const std::string name(method->name);
         const auto folder = request.folder / name;
         const auto run = [&](const Scenario& own, const std::string& part,
                              const std::filesystem::path& from) {
             const RunReport report = run_into_folder({.scenario = own,
                                                       .packing = packing,
-                                                      .method = method,
+                                                      .method = *method,
                                                       .folder = folder / part,
                                                       .from = from,
                                                       .threads = request.threads,

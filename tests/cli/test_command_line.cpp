@@ -379,6 +379,11 @@ TEST_F(CommandLine, AFanOfProbesFromOneState) {
                                     "--out", (folder / "n").string()});
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_NE(none.err.find("kind = \"probe\""), std::string::npos) << none.err;
+    std::vector<std::string> unknown = command;
+    unknown[3] = "rigid_dem,rigid";
+    unknown[5] = (folder / "u").string();
+    EXPECT_EQ(softgrain(unknown).exit_code, 2);
+    EXPECT_FALSE(fs::exists(folder / "u")) << "it had begun before it looked at all methods";
 }
 
 TEST_F(CommandLine, CalibrateFindsTheAttractionAndSaysHowWell) {
