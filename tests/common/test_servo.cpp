@@ -211,5 +211,24 @@ TEST(Servo, KeepsItsBitsOverARestart) {
     }
 }
 
+/// A wave has to cross a box with walls; a cell strains all its grains at once, however many they are.
+TEST(ServoLaw, AnswersOfACellDoNotDependOnItsSize) {
+    const auto rate = [](double side, bool periodic) {
+        Box box;
+        box.position = {0.0, side, 0.0, side};
+        box.periodic = periodic;
+        const double target = 1e-3, diameter = 1.0;
+        const Servo servo({target, target}, box, 1.0, diameter, false);
+        ServoState state = servo.begin({}, box, {target, target}, 1.0);
+        const std::array<double, 2> disturbed{0.5 * target, target};
+        for (int k = 0; k < 100; ++k) servo.update(state, box, disturbed, 1.0, 1e-3);
+        return state.rate[0];
+    };
+    EXPECT_GT(rate(20.0, true), 0.0);
+    EXPECT_DOUBLE_EQ(rate(200.0, true), rate(20.0, true));
+    EXPECT_GT(rate(20.0, true), 4.0 * rate(20.0, false));  // 4 diameters against 20
+    EXPECT_GT(rate(20.0, false), 5.0 * rate(200.0, false));
+}
+
 }  // namespace
 }  // namespace softgrain
