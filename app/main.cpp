@@ -228,7 +228,7 @@ int command_line(int argc, char** argv) {
     CLI::App* run = add("run", "run a scenario with one method", run_command,
                         "run scenarios/default.toml --method sdem --out results/sdem");
     run_options(*run, a);
-    run->add_option("--method", a.method, "sdem, bpm or rigid_dem")->required();
+    run->add_option("--method", a.method, "sdem, bpm, rigid_dem or mpm")->required();
 
     CLI::App* compare_app =
         add("compare", "run a scenario with several methods from one initial packing", compare_command,

@@ -6,6 +6,7 @@
 
 #include "bpm/method.hpp"
 #include "common/errors.hpp"
+#include "mpm/method.hpp"
 #include "rigid_dem/method.hpp"
 #include "sdem/method.hpp"
 
@@ -31,7 +32,7 @@ std::vector<KeySpec> with_common_keys(std::span<const KeySpec> own) {
 }  // namespace
 
 std::span<const Method> methods() {
-    static const std::array table{sdem::method(), bpm::method(), rigid_dem::method()};
+    static const std::array table{sdem::method(), bpm::method(), rigid_dem::method(), mpm::method()};
     return table;
 }
 

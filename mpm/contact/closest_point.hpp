@@ -1,0 +1,24 @@
+#pragma once
+// Where a point lies beside a closed quadratic B-spline curve.
+#include <optional>
+#include <span>
+
+#include "common/vec.hpp"
+
+namespace softgrain::mpm {
+
+/// The nearest place on a curve and how the curve runs there.
+struct CurvePlace {
+    int span;          ///< of control points span, span + 1, span + 2 (modulo their number)
+    double t;          ///< in the span, 0 to 1
+    double gap;        ///< signed, negative inside
+    Vec2 normal;       ///< unit, outward of a counter-clockwise curve
+    Vec2 tangent;      ///< unit
+    double speed;      ///< |dc/dt|
+    double curvature;  ///< n . d2c/dt2, negative where the curve is convex
+};
+
+/// Nearest place of the curve to p, started at the nearest control point. control [n >= 3] counter-clockwise.
+CurvePlace closest_place(std::span<const Vec2> control, const Vec2& p);
+
+}  // namespace softgrain::mpm

@@ -1,0 +1,59 @@
+#pragma once
+// Contacts as far as a step of Newton's method sees them: gaps that change linearly.
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mpm/contact/contacts.hpp"
+
+namespace softgrain::mpm {
+
+/// A dense symmetric matrix on some nodes.
+struct ContactStiffness {
+    std::vector<int> node;   ///< of all nodes, ascending
+    Eigen::MatrixXd matrix;  ///< [2 nodes x 2 nodes], lower triangle
+};
+
+/// Gaps g + grad g . d of all points that touch or are near. Energy: k/2 (g + grad g . d)^2 of each active
+/// point, and half of d . (force x second derivative of g) d of those that touch at d = 0.
+class ContactModel {
+  public:
+    explicit ContactModel(const Grains& grains) : grains_(grains) {}
+
+    /// Of the last evaluate().
+    void build(const Contacts& contacts);
+    /// [points] those that touch for a step d [all nodes]; without d those that touch now.
+    void find_active(std::span<const Vec2> d, std::vector<char>& active) const;
+    /// Of the groups, in their order.
+    void find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const;
+    /// Adds k g grad g of the active points.
+    void add_force(std::span<const char> active, std::span<Vec2> force) const;
+    /// Energy of a step d.
+    double energy(std::span<const Vec2> d) const;
+
+    std::size_t points() const { return point_.size(); }
+
+  private:
+    struct Point {
+        int first, count;  ///< in entries
+        double gap, stiffness;
+        Vec2 normal, tangent;
+        double bend;  ///< force / (speed^2 - gap curvature); 0 of walls and of points that do not touch
+        double speed, curvature;
+    };
+    struct Entry {
+        int local;          ///< in the nodes of the group
+        double difference;  ///< d(p - c) by the node
+        double slope;       ///< d(dc/dt) by the node
+    };
+
+    const Grains& grains_;
+    std::vector<Point> point_;
+    std::vector<std::vector<Entry>> entry_;  ///< by groups
+    std::vector<std::vector<int>> node_;     ///< by groups
+    std::vector<std::array<int, 2>> range_;  ///< points of each group
+    std::vector<int> group_of_;
+};
+
+}  // namespace softgrain::mpm

@@ -1,0 +1,151 @@
+#include "mpm/contact/contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/disc/quadratic_spline.hpp"
+
+namespace softgrain::mpm {
+namespace {
+
+constexpr double skin = 0.2;        // [mean radius]
+constexpr double near_gap = 0.008;  // [mean radius]
+
+}  // namespace
+
+void Surfaces::update(const Grains& grains, std::span<const Vec2> q) {
+    const ReferenceDisc& disc = *grains.disc;
+    const std::size_t controls = disc.control.size(), points = disc.surface.size();
+    control.resize(grains.size() * controls);
+    point.resize(grains.size() * points);
+#pragma omp parallel for schedule(static)
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+        const std::span<const Vec2> own{q.data() + g * grains.nodes(), grains.nodes()};
+        for (std::size_t k = 0; k < controls; ++k) control[g * controls + k] = disc.control.at(k, own);
+        for (std::size_t k = 0; k < points; ++k) point[g * points + k] = disc.surface.at(k, own);
+    }
+}
+
+Contacts::Contacts(const Grains& grains, double penalty) : grains_(grains), penalty_(penalty) {
+    center_.resize(grains.size());
+    reach_.resize(grains.size());
+    low_.resize(grains.size());
+    high_.resize(grains.size());
+    wall_force_.fill(Vec2::Zero());
+    near_gap_ = near_gap * mean_radius();
+}
+
+double Contacts::mean_radius() const {
+    double sum = 0.0;
+    for (const Grain& grain : grains_.grain) sum += grain.radius;
+    return sum / static_cast<double>(grains_.size());
+}
+
+void Contacts::watch(const Surfaces& surfaces) {
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        const auto controls = surfaces.controls_of(grains_, g);
+        low_[g] = high_[g] = controls[0];
+        for (const Vec2& x : controls) {
+            low_[g] = low_[g].cwiseMin(x);
+            high_[g] = high_[g].cwiseMax(x);
+        }
+        center_[g] = 0.5 * (low_[g] + high_[g]);
+        reach_[g] = 0.0;
+        for (const Vec2& x : controls) reach_[g] = std::max(reach_[g], (x - center_[g]).norm());
+    }
+    if (pairs_.built_at().empty() || pairs_.stale(center_, reach_))
+        pairs_.build(center_, reach_, skin * mean_radius());
+}
+
+double Contacts::stiffness_per_length(const Grain& a, const Grain& b) const {
+    const double h = grains_.disc->spacing();
+    return 2.0 * penalty_ / (h * (a.radius / a.modulus + b.radius / b.modulus));
+}
+
+void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length) {
+    const auto points = surfaces.points_of(grains_, i);
+    const auto controls = surfaces.controls_of(grains_, j);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vec2& x = points[k];
+        if ((x.array() < low_[j].array() - near_gap_).any() ||
+            (x.array() > high_[j].array() + near_gap_).any())
+            continue;
+        const CurvePlace place = closest_place(controls, x);
+        if (place.gap >= near_gap_) continue;
+        points_.push_back({static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
+                           length * stiffness_per_length(grains_.grain[i], grains_.grain[j])});
+    }
+}
+
+void Contacts::find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall) {
+    const Grain& grain = grains_.grain[i];
+    const auto points = surfaces.points_of(grains_, i);
+    const double length = grains_.disc->surface_weight() * grain.radius;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const double gap = box.distance(wall, points[k]);
+        if (gap >= near_gap_) continue;
+        CurvePlace place{};
+        place.gap = gap;
+        place.normal = wall_normal(wall);
+        place.tangent = perpendicular(place.normal);
+        points_.push_back({static_cast<int>(i), static_cast<int>(k), -1 - wall, place,
+                           length * stiffness_per_length(grain, grain)});
+    }
+}
+
+double Contacts::evaluate(const Surfaces& surfaces, const Box& box, std::span<Vec2> force) {
+    watch(surfaces);
+    points_.clear();
+    groups_.clear();
+    wall_force_.fill(Vec2::Zero());
+    const auto close_group = [&](int i, int j, std::size_t first) {
+        if (points_.size() > first)
+            groups_.push_back({i, j, static_cast<int>(first), static_cast<int>(points_.size() - first)});
+    };
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+        for (int wall = 3; wall >= 0 && !box.periodic; --wall) {
+            const std::size_t first = points_.size();
+            if (box.distance(wall, wall_sign(wall) > 0.0 ? low_[i] : high_[i]) < near_gap_)
+                find_wall_points(surfaces, box, i, wall);
+            close_group(static_cast<int>(i), -1 - wall, first);
+        }
+        for (; pair < pairs_.pairs().size() && pairs_.pairs()[pair].i == static_cast<int>(i); ++pair) {
+            const auto j = static_cast<std::size_t>(pairs_.pairs()[pair].j);
+            if ((low_[i].array() > high_[j].array() + near_gap_).any() ||
+                (low_[j].array() > high_[i].array() + near_gap_).any())
+                continue;
+            const std::size_t first = points_.size();
+            const double half = 0.5 * grains_.disc->surface_weight();
+            find_points(surfaces, i, j, half * grains_.grain[i].radius);
+            find_points(surfaces, j, i, half * grains_.grain[j].radius);
+            close_group(static_cast<int>(i), static_cast<int>(j), first);
+        }
+    }
+
+    const ReferenceDisc& disc = *grains_.disc;
+    const int nodes = static_cast<int>(grains_.nodes()), controls = static_cast<int>(disc.control.size());
+    energy_ = 0.0;
+    for (const PointContact& c : points_) {
+        if (!c.touches()) continue;
+        energy_ += 0.5 * c.stiffness * c.place.gap * c.place.gap;
+        const Vec2 push = -c.force() * c.place.normal;  // dU/d(gap) dgap/dx
+        const auto spread = [&](const ShapeRows& rows, int row, int grain, const Vec2& by) {
+            const auto r = static_cast<std::size_t>(row);
+            for (std::size_t k = 0; k < rows.nodes(r).size(); ++k)
+                force[static_cast<std::size_t>(grain * nodes + rows.nodes(r)[k])] += rows.values(r)[k] * by;
+        };
+        spread(disc.surface, c.point, c.i, push);
+        if (c.j < 0) {
+            wall_force_[static_cast<std::size_t>(-1 - c.j)] += push;
+            continue;
+        }
+        const SplineSpan s = spline_span(c.place.t);
+        for (int k = 0; k < 3; ++k)
+            spread(disc.control, (c.place.span + k) % controls, c.j,
+                   -s.value[static_cast<std::size_t>(k)] * push);
+    }
+    return energy_;
+}
+
+}  // namespace softgrain::mpm

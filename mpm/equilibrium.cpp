@@ -1,0 +1,208 @@
+#include "mpm/equilibrium.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace softgrain::mpm {
+namespace {
+
+/// Spring that holds every node: grains without contact have no other [largest modulus].
+constexpr double least_hold = 1e-9, most_hold = 1e4;
+constexpr double hold_down = 0.3;
+/// Share of the decrease foreseen that a step must bring.
+constexpr double sufficient = 1e-4;
+constexpr int most_halvings = 6;
+/// Most looks at which points a step makes touch.
+constexpr int most_looks = 6;
+/// Largest motion of a node in an iteration [smallest radius].
+constexpr double longest_step = 0.3;
+/// Energies are not compared closer than this [energy].
+constexpr double rounding_of_energy = 1e-13;
+/// Floor of the force that residuals are compared with [modulus * grid spacing].
+constexpr double least_force = 1e-5;
+
+}  // namespace
+
+Equilibrium::Equilibrium(const Grains& grains, const EquilibriumSettings& settings,
+                         std::unique_ptr<LinearSolver> linear)
+    : grains_(grains),
+      settings_(settings),
+      linear_(std::move(linear)),
+      work_(static_cast<std::size_t>(omp_get_max_threads()),
+            GrainForces(*grains.disc, *grains.pattern, settings.mean_dilatation)),
+      contacts_(grains, settings.penalty),
+      model_(grains),
+      radius_(std::numeric_limits<double>::infinity()) {
+    for (const Grain& grain : grains_.grain) {
+        modulus_ = std::max(modulus_, grain.modulus);
+        radius_ = std::min(radius_, grain.radius);
+    }
+    for (Trial* trial : {&trial_, &farther_}) {
+        trial->q.resize(grains_.all_nodes());
+        trial->force.resize(grains_.all_nodes());
+    }
+}
+
+std::span<const PlasticState> Equilibrium::plastic_of(std::size_t g) const {
+    if (plastic.empty()) return {};
+    return {plastic.data() + g * grains_.points(), grains_.points()};
+}
+
+double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<Vec2> force) {
+    const std::size_t nodes = grains_.nodes();
+    std::vector<double> energy(grains_.size()), largest(grains_.size(), 0.0), height(grains_.size(), 0.0);
+    const bool falls = !settings_.gravity.isZero();
+#pragma omp parallel for schedule(static)
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        GrainForces& work = work_[static_cast<std::size_t>(omp_get_thread_num())];
+        const std::span<Vec2> own = force.subspan(g * nodes, nodes);
+        std::fill(own.begin(), own.end(), Vec2::Zero());
+        energy[g] = work.evaluate(grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), own, {});
+        for (const Vec2& f : own) largest[g] = std::max(largest[g], f.cwiseAbs().maxCoeff());
+        for (std::size_t m = 0; falls && m < nodes; ++m) {
+            const Vec2 weight = grains_.mass_of_node(g, m) * settings_.gravity;
+            height[g] -= weight.dot(q[g * nodes + m]);
+            own[m] -= weight;
+        }
+    }
+    elastic_ = force_scale_ = 0.0;
+    double potential = 0.0;
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        elastic_ += energy[g];
+        potential += height[g];
+        const Grain& grain = grains_.grain[g];
+        const double floor = least_force * grain.modulus * grain.radius * grains_.disc->spacing();
+        force_scale_ = std::max({force_scale_, largest[g], floor});
+    }
+    if (!std::isfinite(elastic_)) return elastic_;
+    surfaces_.update(grains_, q);
+    elastic_ += contacts_.evaluate(surfaces_, box, force);
+    return elastic_ + potential;
+}
+
+void Equilibrium::find_grain_stiffness(std::span<const Vec2> q) {
+    const std::size_t nodes = grains_.nodes(), places = grains_.pattern->size();
+    stiffness_.grain.resize(grains_.size() * places);
+#pragma omp parallel
+    {
+        std::vector<Vec2> unused(nodes, Vec2::Zero());
+#pragma omp for schedule(static)
+        for (std::size_t g = 0; g < grains_.size(); ++g)
+            work_[static_cast<std::size_t>(omp_get_thread_num())].evaluate(
+                grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), unused,
+                {stiffness_.grain.data() + g * places, places});
+    }
+}
+
+bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force, EquilibriumResult& result) {
+    find_grain_stiffness(q);
+    model_.build(contacts_);
+    model_.find_active({}, active_);
+    model_.find_stiffness(active_, stiffness_.contact);
+    // The force without contacts: those of the model take their place.
+    std::vector<Vec2> alone(force.size(), Vec2::Zero());
+    model_.add_force(active_, alone);
+    for (std::size_t m = 0; m < force.size(); ++m) alone[m] = force[m] - alone[m];
+    for (double hold = least_hold;; hold *= hold_up) {
+        stiffness_.shift = modulus_ * hold;
+        if (linear_->factor_grains(stiffness_)) break;
+        if (hold > most_hold) {
+            result.why = "a grain has no stiffness left";
+            return false;
+        }
+    }
+    for (int look = 1;; ++look) {
+        while (true) {
+            stiffness_.contact_shift = modulus_ * hold_;
+            ++result.factorizations;
+            if (linear_->factor_contacts(stiffness_)) break;
+            if (hold_ > most_hold) {
+                result.why = "the contacts have no stiffness left";
+                return false;
+            }
+            hold_more();
+        }
+        step_ = alone;
+        model_.add_force(active_, step_);
+        linear_->solve(step_);
+        for (Vec2& s : step_) s = -s;
+        model_.find_active(step_, next_active_);
+        if (next_active_ == active_ || look == most_looks) return true;
+        active_.swap(next_active_);
+        model_.find_stiffness(active_, stiffness_.contact);
+    }
+}
+
+void Equilibrium::try_step(std::span<const Vec2> q, double share, const Box& box, Trial& trial) {
+    for (std::size_t m = 0; m < q.size(); ++m) trial.q[m] = q[m] + share * step_[m];
+    trial.energy = evaluate(trial.q, box, trial.force);
+}
+
+EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
+    EquilibriumResult result;
+    std::vector<Vec2> force(q.size());
+    double energy = evaluate(q, box, force);
+    hold_ = 0.0;
+    for (;; ++result.iterations) {
+        double largest = 0.0;
+        for (std::size_t m = 0; m < q.size(); ++m) {
+            const double f = force[m].cwiseAbs().maxCoeff();
+            if (f <= largest) continue;
+            largest = f;
+            result.worst_node = static_cast<int>(m);
+        }
+        result.residual = largest / force_scale_;
+        if (!std::isfinite(energy)) {
+            result.why = "a grain is inside out";
+            return result;
+        }
+        result.converged = result.residual <= settings_.tolerance;
+        if (result.converged) return result;
+        if (result.iterations == settings_.most_iterations) {
+            result.why = fmt::format("{} iterations leave {:.2g} of the largest force", result.iterations,
+                                     result.residual);
+            return result;
+        }
+        if (!find_step(q, force, result)) return result;
+
+        double longest = 0.0, slope = 0.0;
+        for (std::size_t m = 0; m < q.size(); ++m) {
+            longest = std::max(longest, step_[m].norm());
+            slope -= step_[m].dot(force[m]);
+        }
+        const double whole = std::min(1.0, longest_step * radius_ / longest);
+        const double tiny = rounding_of_energy * std::abs(energy);
+        double share = whole;
+        for (int halving = 0; halving <= most_halvings; ++halving, share *= 0.5) {
+            try_step(q, share, box, trial_);
+            if (trial_.energy <= energy - sufficient * share * slope + tiny) break;
+        }
+        if (!(trial_.energy <= energy + tiny)) {
+            hold_more();
+            energy = evaluate(q, box, force);
+            continue;
+        }
+        const double got = energy - trial_.energy, foreseen = share * (1.0 - 0.5 * share) * slope;
+        bool last_is_best = true;
+        for (double far = 2.0 * share;
+             last_is_best && got > foreseen && far * longest < longest_step * radius_; far *= 2.0) {
+            try_step(q, far, box, farther_);
+            last_is_best = farther_.energy < trial_.energy;
+            if (last_is_best) std::swap(trial_, farther_);
+        }
+        if (!last_is_best) evaluate(trial_.q, box, trial_.force);
+        if (share == whole && got > 0.5 * foreseen)
+            hold_ = hold_ * hold_down < first_hold ? 0.0 : hold_ * hold_down;
+        else if (share < 0.5 * whole)
+            hold_more();
+        q.swap(trial_.q);
+        force.swap(trial_.force);
+        energy = trial_.energy;
+    }
+}
+
+}  // namespace softgrain::mpm

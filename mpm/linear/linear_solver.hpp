@@ -1,0 +1,31 @@
+#pragma once
+// Solves K x = b for the stiffness of all grains and their contacts.
+#include <span>
+#include <vector>
+
+#include "mpm/contact/contact_model.hpp"
+#include "mpm/grains.hpp"
+
+namespace softgrain::mpm {
+
+/// Stiffness as the sum of its parts.
+struct Stiffness {
+    std::vector<Mat2> grain;                ///< [grains * pattern size] lower triangles
+    std::vector<ContactStiffness> contact;  ///< by groups
+    double shift = 0.0;                     ///< added to the diagonal [N/m]
+    double contact_shift = 0.0;             ///< added to that of nodes of contacts besides [N/m]
+};
+
+class LinearSolver {
+  public:
+    virtual ~LinearSolver() = default;
+    /// What grains do alone, and which nodes contacts touch. False if it is not positive definite.
+    virtual bool factor_grains(const Stiffness& K) = 0;
+    /// The rest, for the same grains and nodes: once or more. False if K is not positive definite; solve() is
+    /// then not allowed.
+    virtual bool factor_contacts(const Stiffness& K) = 0;
+    /// b [all nodes] becomes x.
+    virtual void solve(std::span<Vec2> b) = 0;
+};
+
+}  // namespace softgrain::mpm

@@ -1,0 +1,89 @@
+#pragma once
+// The material point method as a Solver: grains resolved as continua, in equilibrium between walls.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/solver.hpp"
+#include "mpm/equilibrium.hpp"
+#include "mpm/grains.hpp"
+
+namespace softgrain::mpm {
+
+/// Values of the scenario table [mpm]; see mpm/method.cpp for units and defaults.
+struct MpmSettings {
+    LawKind law;
+    int cells;           ///< of a grain's grid, across its radius
+    double strain_step;  ///< largest strain of the box that one equilibrium is looked for after
+    EquilibriumSettings equilibrium;
+};
+
+/// Reads the table [mpm] of a scenario, defaults where there is none.
+MpmSettings settings_of(const Scenario& scenario);
+
+/// Quasi-static: time is only what the walls move by. Each step ends in equilibrium, found in as many smaller
+/// ones as it takes.
+class MpmSolver final : public Solver {
+  public:
+    /// Throws InputError if the packing has no grains, DivergedError if its overlaps cannot be resolved.
+    MpmSolver(const Scenario& scenario, const Packing& packing);
+
+    /// Any step is stable.
+    double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
+    /// Throws DivergedError if there is no equilibrium even for the smallest part of the step.
+    void advance(const WallMotion& walls, double dt) override;
+    GrainView view(Need need) override;
+    const std::array<Vec2, 4>& wall_force() const override { return wall_force_; }
+    double stress_scale() const override { return stress_scale_; }
+    void check_finite() const override;
+    void save(Checkpoint& to) const override;
+    void load(const Checkpoint& from) override;
+
+    const Grains& grains() const { return grains_; }
+    std::span<const Vec2> nodes() const { return q_; }
+    const Equilibrium& equilibrium() const { return *equilibrium_; }
+    /// Of Newton's method, since the start.
+    long long iterations() const { return iterations_; }
+
+  private:
+    void make_grains(const Scenario& scenario, const Packing& packing);
+    /// From the box as it is to another. False, and nothing has changed, if no equilibrium was found.
+    bool move_walls(const Box& to, EquilibriumResult& result);
+    void evaluate();
+    void flow();
+    void view_grains();
+    void view_contacts();
+    void view_stress();
+    void view_outlines();
+    void view_parts(GrainView& view);
+    double covered_area() const;
+    double stored_energy();
+    double dissipated_by_flow() const;
+
+    MpmSettings settings_;
+    Grains grains_;
+    std::unique_ptr<Equilibrium> equilibrium_;
+    std::unique_ptr<GrainForces> forces_;  ///< for views
+    std::vector<Vec2> q_;                  ///< [grains * nodes] coefficients of positions [m]
+    std::vector<Vec2> force_;
+    double stress_scale_ = 0.0;
+
+    double time_ = 0.0;
+    Box box_;
+    std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+    EnergyLedger energy_;
+    double residual_ = 0.0;
+    double iterations_of_step_ = 0.0;
+    long long iterations_ = 0;
+
+    // What view() hands out.
+    std::vector<Vec2> start_;  ///< [grains] centroids at the start of the last step
+    std::vector<Vec2> centroid_, velocity_, outline_point_, part_position_, part_reference_;
+    std::vector<double> mass_, reference_area_, area_, part_radius_, von_mises_, pressure_, part_deformation_,
+        plastic_strain_, residual_of_grain_;
+    std::vector<int> outline_offset_, part_grain_;
+    std::vector<GrainContact> contact_;
+    std::vector<Mat2> stress_;
+};
+
+}  // namespace softgrain::mpm
