@@ -12,7 +12,7 @@ namespace {
 
 /// Spring that holds every node: grains without contact have no other [largest modulus].
 constexpr double least_hold = 1e-9, most_hold = 1e4;
-constexpr double hold_down = 0.3;
+constexpr double hold_down = 0.1;
 /// Share of the decrease foreseen that a step must bring.
 constexpr double sufficient = 1e-4;
 constexpr int most_halvings = 6;
@@ -24,12 +24,14 @@ constexpr double longest_step = 0.3;
 constexpr double rounding_of_energy = 1e-13;
 /// Floor of the force that residuals are compared with [modulus * grid spacing].
 constexpr double least_force = 1e-5;
+constexpr std::size_t worth_threads = 2;  // grains
 
 }  // namespace
 
-Equilibrium::Equilibrium(const Grains& grains, const EquilibriumSettings& settings,
+Equilibrium::Equilibrium(Grains& grains, const EquilibriumSettings& settings,
                          std::unique_ptr<LinearSolver> linear)
     : grains_(grains),
+      threads_(grains.size() >= worth_threads ? omp_get_max_threads() : 1),
       settings_(settings),
       linear_(std::move(linear)),
       work_(static_cast<std::size_t>(omp_get_max_threads()),
@@ -41,6 +43,8 @@ Equilibrium::Equilibrium(const Grains& grains, const EquilibriumSettings& settin
         modulus_ = std::max(modulus_, grain.modulus);
         radius_ = std::min(radius_, grain.radius);
     }
+    step_.resize(grains_.all_nodes());
+    pushes_.resize(grains_.all_nodes());
     for (Trial* trial : {&trial_, &farther_}) {
         trial->q.resize(grains_.all_nodes());
         trial->force.resize(grains_.all_nodes());
@@ -56,7 +60,7 @@ double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<
     const std::size_t nodes = grains_.nodes();
     std::vector<double> energy(grains_.size()), largest(grains_.size(), 0.0), height(grains_.size(), 0.0);
     const bool falls = !settings_.gravity.isZero();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (grains_.threads)
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         GrainForces& work = work_[static_cast<std::size_t>(omp_get_thread_num())];
         const std::span<Vec2> own = force.subspan(g * nodes, nodes);
@@ -87,7 +91,7 @@ double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<
 void Equilibrium::find_grain_stiffness(std::span<const Vec2> q) {
     const std::size_t nodes = grains_.nodes(), places = grains_.pattern->size();
     stiffness_.grain.resize(grains_.size() * places);
-#pragma omp parallel
+#pragma omp parallel if (grains_.threads)
     {
         std::vector<Vec2> unused(nodes, Vec2::Zero());
 #pragma omp for schedule(static)
@@ -103,10 +107,10 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
     model_.build(contacts_);
     model_.find_active({}, active_);
     model_.find_stiffness(active_, stiffness_.contact);
-    // The force without contacts: those of the model take their place.
+    // What pulls the nodes without contacts: those of the model take their place.
     std::vector<Vec2> alone(force.size(), Vec2::Zero());
     model_.add_force(active_, alone);
-    for (std::size_t m = 0; m < force.size(); ++m) alone[m] = force[m] - alone[m];
+    for (std::size_t m = 0; m < force.size(); ++m) alone[m] = -alone[m] - force[m];
     for (double hold = least_hold;; hold *= hold_up) {
         stiffness_.shift = modulus_ * hold;
         if (linear_->factor_grains(stiffness_)) break;
@@ -115,6 +119,7 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
             return false;
         }
     }
+    linear_->begin(alone);
     for (int look = 1;; ++look) {
         while (true) {
             stiffness_.contact_shift = modulus_ * hold_;
@@ -126,15 +131,16 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
             }
             hold_more();
         }
-        step_ = alone;
-        model_.add_force(active_, step_);
-        linear_->solve(step_);
-        for (Vec2& s : step_) s = -s;
+        std::fill(pushes_.begin(), pushes_.end(), Vec2::Zero());
+        model_.add_force(active_, pushes_);
+        linear_->solve_contacts(pushes_, step_);
         model_.find_active(step_, next_active_);
-        if (next_active_ == active_ || look == most_looks) return true;
+        if (next_active_ == active_ || look == most_looks) break;
         active_.swap(next_active_);
         model_.find_stiffness(active_, stiffness_.contact);
     }
+    linear_->finish(step_);
+    return true;
 }
 
 void Equilibrium::try_step(std::span<const Vec2> q, double share, const Box& box, Trial& trial) {
@@ -167,7 +173,10 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
                                      result.residual);
             return result;
         }
+        grains_.threads = threads_.parallel();
+        const double begun = omp_get_wtime();
         if (!find_step(q, force, result)) return result;
+        threads_.note(omp_get_wtime() - begun);
 
         double longest = 0.0, slope = 0.0;
         for (std::size_t m = 0; m < q.size(); ++m) {

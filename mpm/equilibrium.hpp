@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/thread_choice.hpp"
 #include "mpm/contact/contact_model.hpp"
 #include "mpm/contact/contacts.hpp"
 #include "mpm/grain_forces.hpp"
@@ -34,8 +35,7 @@ struct EquilibriumResult {
 /// nodes of contacts are held by springs to where they are (Levenberg 1944); none is left at the end.
 class Equilibrium {
   public:
-    Equilibrium(const Grains& grains, const EquilibriumSettings& settings,
-                std::unique_ptr<LinearSolver> linear);
+    Equilibrium(Grains& grains, const EquilibriumSettings& settings, std::unique_ptr<LinearSolver> linear);
 
     /// Energy at q [J] and its derivative; infinite where a grain is inside out.
     double evaluate(std::span<const Vec2> q, const Box& box, std::span<Vec2> force);
@@ -64,9 +64,10 @@ class Equilibrium {
     void try_step(std::span<const Vec2> q, double share, const Box& box, Trial& trial);
     void hold_more() { hold_ = std::max(first_hold, hold_ * hold_up); }
 
-    static constexpr double first_hold = 1e-7, hold_up = 10.0;  // [largest modulus]
+    static constexpr double first_hold = 1e-7, hold_up = 5.0;  // [largest modulus]
 
-    const Grains& grains_;
+    Grains& grains_;
+    ThreadChoice threads_;
     EquilibriumSettings settings_;
     std::unique_ptr<LinearSolver> linear_;
     std::vector<GrainForces> work_;  ///< one a thread
@@ -78,8 +79,9 @@ class Equilibrium {
     double elastic_ = 0.0;
     double force_scale_ = 0.0;  ///< largest of a node by its grain alone [N]
 
-    double hold_ = 0.0;       ///< spring of the nodes of contacts [largest modulus]
-    std::vector<Vec2> step_;  ///< towards lower energy
+    double hold_ = 0.0;         ///< spring of the nodes of contacts [largest modulus]
+    std::vector<Vec2> step_;    ///< towards lower energy
+    std::vector<Vec2> pushes_;  ///< of contacts on nodes
     std::vector<char> active_, next_active_;
     Trial trial_, farther_;
 };

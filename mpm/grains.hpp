@@ -28,6 +28,7 @@ struct Grains {
     std::shared_ptr<const Dissection> dissection;
     std::vector<std::unique_ptr<GrainLaw>> law;  ///< by class
     std::vector<Grain> grain;
+    bool threads = false;  ///< whether loops over grains, contacts and fronts are shared among threads
 
     std::size_t size() const { return grain.size(); }
     std::size_t nodes() const { return disc->nodes(); }

@@ -1,5 +1,7 @@
 #include "mpm/solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,13 +14,8 @@ namespace {
 
 /// A step without equilibrium is halved so often.
 constexpr int most_halvings = 10;
-
-double largest_motion(const Box& from, const Box& to) {
-    double largest = 0.0;
-    for (std::size_t w = 0; w < 4; ++w)
-        largest = std::max(largest, std::abs(to.position[w] - from.position[w]));
-    return largest;
-}
+/// Share of the undeformed area of all grains that walls may not go below: nothing is solid there.
+constexpr double least_area = 0.2;
 
 Box between(const Box& from, const Box& to, double share) {
     Box box = from;
@@ -40,15 +37,12 @@ MpmSolver::MpmSolver(const Scenario& scenario, const Packing& packing)
     if (std::ranges::any_of(grains_.law, [](const auto& law) { return law->remembers(); }))
         equilibrium_->plastic.resize(grains_.size() * grains_.points());
     force_.resize(q_.size());
-    view_grains();
-    start_ = centroid_;
-    const EquilibriumResult result = equilibrium_->find(q_, box_);
-    if (!result.converged)
-        throw DivergedError(result.worst_node / static_cast<int>(grains_.nodes()), "equilibrium", 0.0,
-                            "of the initial packing: " + result.why);
-    residual_ = result.residual;
+    placed_ = packing.center;
+    evaluate();
     wall_force_ = equilibrium_->contacts().wall_force();
-    flow();
+    velocity_.assign(grains_.size(), Vec2::Zero());
+    find_centroids();
+    find_energy();
 }
 
 void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
@@ -65,6 +59,8 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
         Grain grain;
         grain.law = grains_.law[c].get();
         grain.frame = packing.shape_of(g) * packing.frame_of(g);
+        // A mirrored grain is the mirrored disc, its surface still counter-clockwise.
+        if (grain.frame.determinant() < 0.0) grain.frame.col(0) *= -1.0;
         grain.inverse_frame = grain.frame.inverse();
         grain.area = R * R;
         grain.radius = R;
@@ -88,12 +84,13 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
 }
 
 void MpmSolver::advance(const WallMotion& walls, double dt) {
-    view_grains();
-    start_ = centroid_;
+    const std::vector<Vec2> before = centroid_;
     box_ = walls.box;
     const Box end = walls.after(dt);
-    const double most = settings_.strain_step * std::min(box_.width(), box_.height());
-    const double parts = std::max(1.0, std::ceil(largest_motion(box_, end) / most * (1.0 - 1e-9)));
+    check_room(end, dt);
+    strain_rate_ =
+        std::max(std::abs(walls.width_rate()) / box_.width(), std::abs(walls.height_rate()) / box_.height());
+    const double parts = std::max(1.0, std::ceil(strain_rate_ * dt / settings_.strain_step * (1.0 - 1e-9)));
     EquilibriumResult result;
     iterations_of_step_ = 0.0;
     double done = 0.0, part = 1.0 / parts;
@@ -112,32 +109,71 @@ void MpmSolver::advance(const WallMotion& walls, double dt) {
         if (++halvings > most_halvings)
             throw DivergedError(result.worst_node / static_cast<int>(grains_.nodes()), "equilibrium",
                                 time_ + done * dt,
-                                result.why + "; the walls cannot move on, even by a thousandth of a step");
+                                result.why + "; the walls cannot go on even by a thousandth of a step");
     }
     time_ += dt;
-    view_grains();
-    for (std::size_t g = 0; g < grains_.size(); ++g) velocity_[g] = (centroid_[g] - start_[g]) / dt;
+    for (std::size_t g = 0; g < grains_.size(); ++g) velocity_[g] = (centroid_[g] - before[g]) / dt;
+}
+
+void MpmSolver::check_room(const Box& box, double dt) const {
+    double area = 0.0;
+    for (const double a : reference_area_) area += a;
+    if (!(box.width() > 0.0 && box.height() > 0.0 && box.area() > least_area * area))
+        throw DivergedError(
+            -1, "box", time_,
+            fmt::format("the walls would leave {:.3g} x {:.3g} m for grains of {:.3g} m^2 in a step of "
+                        "{:.3g} s",
+                        box.width(), box.height(), area, dt));
+}
+
+double MpmSolver::stable_time_step() const {
+    return strain_rate_ > 0.0 ? settings_.strain_step / strain_rate_
+                              : std::numeric_limits<double>::infinity();
 }
 
 bool MpmSolver::move_walls(const Box& to, EquilibriumResult& result) {
-    std::vector<Vec2> q = q_;
-    result = equilibrium_->find(q, to);
+    const std::vector<Vec2> before = q_;
+    result = equilibrium_->find(q_, to);
     iterations_ += result.iterations;
     iterations_of_step_ += result.iterations;
-    if (!result.converged) return false;
+    if (!result.converged) {
+        q_ = before;
+        return false;
+    }
     const std::array<Vec2, 4>& force = equilibrium_->contacts().wall_force();
+    double work = -work_of_gravity();
     for (int w = 0; w < 4; ++w) {
         const auto k = static_cast<std::size_t>(w);
         const int axis = wall_axis(w);
-        energy_.external_work -=
+        const double pushed =
             0.5 * (wall_force_[k][axis] + force[k][axis]) * (to.position[k] - box_.position[k]);
+        energy_.external_work -= pushed;
+        work -= pushed;
     }
-    q_.swap(q);
     wall_force_ = force;
     box_ = to;
     residual_ = result.residual;
     flow();
+    find_centroids();
+    // What rearrangements set free is taken away by the search for the next equilibrium.
+    const double elastic = energy_.elastic, plastic = energy_.plastic;
+    find_energy();
+    energy_.damping += work + work_of_gravity() - (energy_.elastic - elastic) - (energy_.plastic - plastic);
     return true;
+}
+
+void MpmSolver::find_energy() {
+    energy_.elastic = equilibrium_->plastic.empty() ? equilibrium_->elastic_energy() : stored_energy();
+    energy_.plastic = dissipated_by_flow();
+}
+
+void MpmSolver::find_centroids() {
+    centroid_.assign(grains_.size(), Vec2::Zero());
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        const auto q = grains_.of(q_, g);
+        for (std::size_t m = 0; m < q.size(); ++m) centroid_[g] += grains_.disc->integral[m] * q[m];
+        centroid_[g] /= std::numbers::pi;
+    }
 }
 
 /// Plastic states follow the equilibrium.

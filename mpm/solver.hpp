@@ -1,6 +1,7 @@
 #pragma once
 // The material point method as a Solver: grains resolved as continua, in equilibrium between walls.
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ class MpmSolver final : public Solver {
     /// Throws InputError if the packing has no grains, DivergedError if its overlaps cannot be resolved.
     MpmSolver(const Scenario& scenario, const Packing& packing);
 
-    /// Any step is stable.
-    double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
+    /// The time in which the walls strain the box by a strain_step; infinite if they stand.
+    double stable_time_step() const override;
     /// Throws DivergedError if there is no equilibrium even for the smallest part of the step.
     void advance(const WallMotion& walls, double dt) override;
     GrainView view(Need need) override;
@@ -49,9 +50,13 @@ class MpmSolver final : public Solver {
     void make_grains(const Scenario& scenario, const Packing& packing);
     /// From the box as it is to another. False, and nothing has changed, if no equilibrium was found.
     bool move_walls(const Box& to, EquilibriumResult& result);
+    /// Throws DivergedError if the grains could not be in it.
+    void check_room(const Box& box, double dt) const;
     void evaluate();
     void flow();
-    void view_grains();
+    void find_centroids();
+    void find_energy();
+    double work_of_gravity() const;
     void view_contacts();
     void view_stress();
     void view_outlines();
@@ -69,6 +74,7 @@ class MpmSolver final : public Solver {
     double stress_scale_ = 0.0;
 
     double time_ = 0.0;
+    double strain_rate_ = 0.0;  ///< of the box in the last step, of its faster axis [1/s]
     Box box_;
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     EnergyLedger energy_;
@@ -77,7 +83,7 @@ class MpmSolver final : public Solver {
     long long iterations_ = 0;
 
     // What view() hands out.
-    std::vector<Vec2> start_;  ///< [grains] centroids at the start of the last step
+    std::vector<Vec2> placed_;  ///< [grains] centroids in the packing
     std::vector<Vec2> centroid_, velocity_, outline_point_, part_position_, part_reference_;
     std::vector<double> mass_, reference_area_, area_, part_radius_, von_mises_, pressure_, part_deformation_,
         plastic_strain_, residual_of_grain_;

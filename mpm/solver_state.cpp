@@ -23,12 +23,12 @@ void MpmSolver::check_finite() const {
 
 void MpmSolver::save(Checkpoint& to) const {
     to.put("mpm.q", std::span<const Vec2>(q_));
-    to.put("mpm.start", std::span<const Vec2>(start_));
     to.put("mpm.velocity", std::span<const Vec2>(velocity_));
     to.put("mpm.box", std::span<const double>(box_.position));
     to.put("mpm.wall_force", std::span<const Vec2>(wall_force_));
-    const std::array scalars{time_, energy_.external_work, residual_, iterations_of_step_,
-                             static_cast<double>(iterations_)};
+    const std::array scalars{
+        time_,        energy_.external_work, residual_, iterations_of_step_, static_cast<double>(iterations_),
+        strain_rate_, energy_.damping};
     to.put("mpm.scalars", std::span<const double>(scalars));
     std::vector<double> plastic;
     for (const PlasticState& s : equilibrium_->plastic)
@@ -38,23 +38,21 @@ void MpmSolver::save(Checkpoint& to) const {
 }
 
 void MpmSolver::load(const Checkpoint& from) {
-    std::vector<Vec2> q, start, velocity, wall_force;
+    std::vector<Vec2> q, velocity, wall_force;
     std::vector<double> box, scalars, plastic;
     from.get("mpm.q", q);
-    from.get("mpm.start", start);
     from.get("mpm.velocity", velocity);
     from.get("mpm.box", box);
     from.get("mpm.wall_force", wall_force);
     from.get("mpm.scalars", scalars);
     from.get("mpm.plastic", plastic);
-    if (q.size() != q_.size() || start.size() != grains_.size() || velocity.size() != grains_.size() ||
-        box.size() != 4 || wall_force.size() != 4 || scalars.size() != 5 ||
+    if (q.size() != q_.size() || velocity.size() != grains_.size() || box.size() != 4 ||
+        wall_force.size() != 4 || scalars.size() != 7 ||
         plastic.size() != numbers_of_a_state * equilibrium_->plastic.size())
         throw InputError(
             "checkpoint: its grains are not those of this scenario; use the same scenario, packing and "
             "[mpm]");
     q_ = std::move(q);
-    start_ = std::move(start);
     velocity_ = std::move(velocity);
     std::copy(box.begin(), box.end(), box_.position.begin());
     std::copy(wall_force.begin(), wall_force.end(), wall_force_.begin());
@@ -63,10 +61,15 @@ void MpmSolver::load(const Checkpoint& from) {
     residual_ = scalars[2];
     iterations_of_step_ = scalars[3];
     iterations_ = static_cast<long long>(scalars[4]);
+    strain_rate_ = scalars[5];
+    energy_.damping = scalars[6];
     for (std::size_t k = 0; k < equilibrium_->plastic.size(); ++k) {
         const double* s = plastic.data() + numbers_of_a_state * k;
         equilibrium_->plastic[k] = {s[0], s[1], s[2], s[3], s[4], s[5]};
     }
+    find_centroids();
+    evaluate();
+    find_energy();
 }
 
 }  // namespace softgrain::mpm

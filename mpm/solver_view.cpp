@@ -28,10 +28,7 @@ double area_inside(std::span<const Vec2> control) {
 }  // namespace
 
 GrainView MpmSolver::view(Need need) {
-    view_grains();
     evaluate();
-    energy_.elastic = equilibrium_->plastic.empty() ? equilibrium_->elastic_energy() : stored_energy();
-    energy_.plastic = dissipated_by_flow();
     GrainView view;
     view.time = time_;
     view.box = box_;
@@ -42,6 +39,7 @@ GrainView MpmSolver::view(Need need) {
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy_;
+    view.energy.external_work += work_of_gravity();
     view.contact_report.penetration = deepest_overlap(equilibrium_->contacts());
     view.contact_report.sweeps = iterations_of_step_;
     view.contact_report.unconverged_steps = 0.0;
@@ -77,14 +75,11 @@ GrainView MpmSolver::view(Need need) {
     return view;
 }
 
-void MpmSolver::view_grains() {
-    centroid_.assign(grains_.size(), Vec2::Zero());
-    velocity_.resize(grains_.size(), Vec2::Zero());
-    for (std::size_t g = 0; g < grains_.size(); ++g) {
-        const auto q = grains_.of(q_, g);
-        for (std::size_t m = 0; m < q.size(); ++m) centroid_[g] += grains_.disc->integral[m] * q[m];
-        centroid_[g] /= std::numbers::pi;
-    }
+double MpmSolver::work_of_gravity() const {
+    double work = 0.0;
+    for (std::size_t g = 0; g < grains_.size(); ++g)
+        work += mass_[g] * settings_.equilibrium.gravity.dot(centroid_[g] - placed_[g]);
+    return work;
 }
 
 /// What overlaps, or lies outside of the walls, is left out once.

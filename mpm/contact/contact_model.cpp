@@ -22,7 +22,7 @@ void ContactModel::build(const Contacts& contacts) {
     entry_.resize(groups);
     node_.resize(groups);
     range_.resize(groups);
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (grains_.threads)
     for (std::size_t g = 0; g < groups; ++g) {
         const ContactGroup& group = contacts.groups()[g];
         std::vector<Entry>& entry = entry_[g];
@@ -124,7 +124,7 @@ void ContactModel::add_force(std::span<const char> active, std::span<Vec2> force
         const Point& point = point_[p];
         const auto& entry = entry_[at(group_of_[p])];
         const auto& node = node_[at(group_of_[p])];
-        const Vec2 push = point.stiffness * point.gap * point.normal;
+        const Vec2 push = -point.stiffness * point.gap * point.normal;
         for (int k = point.first; k < point.first + point.count; ++k)
             force[at(node[at(entry[at(k)].local)])] += entry[at(k)].difference * push;
     }
@@ -134,7 +134,7 @@ void ContactModel::add_force(std::span<const char> active, std::span<Vec2> force
 /// with dg = n.(dp - dc), b = t.(dp - dc), beta = n.d(dc/dt), L = |dc/dt|, kappa = n.d2c/dt2.
 void ContactModel::find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const {
     out.resize(node_.size());
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (grains_.threads)
     for (std::size_t g = 0; g < node_.size(); ++g) {
         ContactStiffness& K = out[g];
         K.node = node_[g];

@@ -27,7 +27,7 @@ class ContactModel {
     void find_active(std::span<const Vec2> d, std::vector<char>& active) const;
     /// Of the groups, in their order.
     void find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const;
-    /// Adds k g grad g of the active points.
+    /// Adds -k g grad g of the active points: what they push their nodes with.
     void add_force(std::span<const char> active, std::span<Vec2> force) const;
     /// Energy of a step d.
     double energy(std::span<const Vec2> d) const;

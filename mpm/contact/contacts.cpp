@@ -18,7 +18,7 @@ void Surfaces::update(const Grains& grains, std::span<const Vec2> q) {
     const std::size_t controls = disc.control.size(), points = disc.surface.size();
     control.resize(grains.size() * controls);
     point.resize(grains.size() * points);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (grains.threads)
     for (std::size_t g = 0; g < grains.size(); ++g) {
         const std::span<const Vec2> own{q.data() + g * grains.nodes(), grains.nodes()};
         for (std::size_t k = 0; k < controls; ++k) control[g * controls + k] = disc.control.at(k, own);

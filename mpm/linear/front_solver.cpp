@@ -40,36 +40,6 @@ double operations_of(const std::vector<int>& pivots, const std::vector<int>& res
     return (cube(p + r) - cube(r)) / 3.0;
 }
 
-/// Adds the lower triangle of a dense element to that of a front.
-void add_element(const Eigen::MatrixXd& from, const std::vector<int>& place, Eigen::MatrixXd& to) {
-    for (std::size_t b = 0; b < place.size(); ++b)
-        for (std::size_t a = b; a < place.size(); ++a) {
-            const auto block =
-                from.block<2, 2>(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b));
-            if (place[a] >= place[b])
-                to.block<2, 2>(2 * place[a], 2 * place[b]) += block;
-            else
-                to.block<2, 2>(2 * place[b], 2 * place[a]) += block.transpose();
-        }
-}
-
-/// Factors the columns of the p first unknowns; what they leave of the others goes to `left`. False if they
-/// are not positive definite.
-bool reduce(Eigen::MatrixXd& matrix, Eigen::Index p, Eigen::MatrixXd& columns, Eigen::MatrixXd& left) {
-    const Eigen::Index r = matrix.rows() - p;
-    auto rest = matrix.bottomRightCorner(r, r);
-    if (p > 0) {
-        auto pivots = matrix.topLeftCorner(p, p);
-        if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(pivots) >= 0) return false;
-        auto below = matrix.bottomLeftCorner(r, p);
-        pivots.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-        if (r > 0) rest.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
-    }
-    columns = matrix.leftCols(p);
-    left = rest;
-    return true;
-}
-
 }  // namespace
 
 FrontSolver::Element FrontSolver::element(const Stiffness& K, int number) const {
@@ -92,7 +62,7 @@ void FrontSolver::plan(const Stiffness& K) {
     }
     grain_.resize(grains_.size());
     operations_ = 0.0;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (grains_.threads)
     for (std::size_t g = 0; g < grains_.size(); ++g)
         plan_grain(g, std::span(touched).subspan(g * grains_.nodes(), grains_.nodes()));
     plan_contacts(K);
@@ -170,18 +140,80 @@ void FrontSolver::plan_contacts(const Stiffness& K) {
     }
 }
 
+void FrontSolver::Front::clear() {
+    const Eigen::Index p = size_of(pivots), r = size_of(rest);
+    columns.setZero(p + r, p);
+    left.setZero(r, r);
+}
+
+void FrontSolver::Front::add(const Eigen::MatrixXd& from, const std::vector<int>& nodes) {
+    const std::vector<int> place = places(nodes, pivots, rest);
+    const int p = static_cast<int>(pivots.size());
+    for (std::size_t b = 0; b < place.size(); ++b)
+        for (std::size_t a = b; a < place.size(); ++a) {
+            const auto block =
+                from.block<2, 2>(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b));
+            const auto [column, row] = std::minmax(place[a], place[b]);
+            auto to = column < p ? columns.block<2, 2>(2 * row, 2 * column)
+                                 : left.block<2, 2>(2 * (row - p), 2 * (column - p));
+            if (place[a] >= place[b])
+                to += block;
+            else
+                to += block.transpose();
+        }
+}
+
+bool FrontSolver::Front::reduce() {
+    const Eigen::Index p = size_of(pivots), r = size_of(rest);
+    if (p == 0) return true;
+    auto top = columns.topRows(p);
+    if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(top) >= 0) return false;
+    if (r == 0) return true;
+    auto below = columns.bottomRows(r);
+    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+    left.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+    return true;
+}
+
+void FrontSolver::Front::forward(std::span<Vec2> x) const {
+    const Eigen::Index p = size_of(pivots), r = size_of(rest);
+    if (p == 0) return;
+    Eigen::VectorXd own(p), others(r);
+    for (std::size_t k = 0; k < pivots.size(); ++k)
+        own.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(pivots[k])];
+    columns.topRows(p).triangularView<Eigen::Lower>().solveInPlace(own);
+    others.noalias() = columns.bottomRows(r) * own;
+    for (std::size_t k = 0; k < pivots.size(); ++k)
+        x[at(pivots[k])] = own.segment<2>(static_cast<Eigen::Index>(2 * k));
+    for (std::size_t k = 0; k < rest.size(); ++k)
+        x[at(rest[k])] -= others.segment<2>(static_cast<Eigen::Index>(2 * k));
+}
+
+void FrontSolver::Front::backward(std::span<Vec2> x) const {
+    const Eigen::Index p = size_of(pivots), r = size_of(rest);
+    if (p == 0) return;
+    Eigen::VectorXd own(p), others(r);
+    for (std::size_t k = 0; k < pivots.size(); ++k)
+        own.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(pivots[k])];
+    for (std::size_t k = 0; k < rest.size(); ++k)
+        others.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(rest[k])];
+    own.noalias() -= columns.bottomRows(r).transpose() * others;
+    columns.topRows(p).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    for (std::size_t k = 0; k < pivots.size(); ++k)
+        x[at(pivots[k])] = own.segment<2>(static_cast<Eigen::Index>(2 * k));
+}
+
 bool FrontSolver::factor_grain(const Stiffness& K, std::size_t g) {
     const Mat2* block = K.grain.data() + g * grains_.pattern->size();
-    thread_local Eigen::MatrixXd matrix;
     std::vector<int> place(grains_.nodes());
     for (Front& front : grain_[g].front) {
-        const Eigen::Index p = size_of(front.pivots), r = size_of(front.rest);
-        matrix.setZero(p + r, p + r);
+        front.clear();
         std::fill(place.begin(), place.end(), -1);
         int count = 0;
         for (const int m : front.pivots) place[at(m)] = count++;
         for (const int m : front.rest) place[at(m)] = count++;
         // The last front takes what is coupled among its own.
+        Eigen::MatrixXd& matrix = front.pivots.empty() ? front.left : front.columns;
         for (const int m : front.pivots.empty() ? front.rest : front.pivots)
             for (const Coupling& c : grains_.dissection->coupled[at(m)]) {
                 const int row = place[at(c.node)], column = place[at(m)];
@@ -193,32 +225,29 @@ bool FrontSolver::factor_grain(const Stiffness& K, std::size_t g) {
                 if (row == column) matrix.diagonal().segment<2>(2 * row).array() += K.shift;
             }
         for (const int e : front.elements) {
-            Front& child = grain_[g].front[at(e)];
-            add_element(child.left, places(child.rest, front.pivots, front.rest), matrix);
-            child.left.resize(0, 0);
+            const Front& child = grain_[g].front[at(e)];
+            front.add(child.left, child.rest);
         }
-        if (!reduce(matrix, p, front.columns, front.left)) return false;
+        if (!front.reduce()) return false;
     }
     return true;
 }
 
 bool FrontSolver::factor_front(const Stiffness& K, std::size_t f) {
     Front& front = front_[f];
-    const Eigen::Index size = size_of(front.pivots) + size_of(front.rest);
-    thread_local Eigen::MatrixXd matrix;
-    matrix.setZero(size, size);
+    front.clear();
     for (const int e : front.elements) {
         const Element part = element(K, e);
-        add_element(part.matrix, places(part.nodes, front.pivots, front.rest), matrix);
+        front.add(part.matrix, part.nodes);
     }
-    matrix.diagonal().head(size_of(front.pivots)).array() += K.contact_shift;
-    return reduce(matrix, size_of(front.pivots), front.columns, front.left);
+    front.columns.diagonal().array() += K.contact_shift;
+    return front.reduce();
 }
 
 bool FrontSolver::factor_grains(const Stiffness& K) {
     plan(K);
     bool positive = true;
-#pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive)
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive) if (grains_.threads)
     for (std::size_t g = 0; g < grain_.size(); ++g) positive = factor_grain(K, g) && positive;
     return positive;
 }
@@ -226,53 +255,32 @@ bool FrontSolver::factor_grains(const Stiffness& K) {
 bool FrontSolver::factor_contacts(const Stiffness& K) {
     bool positive = true;
     for (std::size_t l = 0; positive && l + 1 < level_start_.size(); ++l) {
-#pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive)
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive) if (grains_.threads)
         for (int k = level_start_[l]; k < level_start_[l + 1]; ++k)
             positive = factor_front(K, at(by_level_[at(k)])) && positive;
     }
     return positive;
 }
 
-void FrontSolver::solve(std::span<Vec2> b) {
-    Eigen::VectorXd part;
-    std::span<Vec2> own;
-    const auto gather = [&](const Front& front) {
-        part.resize(size_of(front.pivots) + size_of(front.rest));
-        Eigen::Index k = 0;
-        for (const int node : front.pivots) part.segment<2>(2 * k++) = own[at(node)];
-        for (const int node : front.rest) part.segment<2>(2 * k++) = own[at(node)];
-    };
-    const auto forward = [&](const Front& front) {
-        const Eigen::Index p = size_of(front.pivots), r = size_of(front.rest);
-        gather(front);
-        auto pivots = part.head(p);
-        front.columns.topRows(p).triangularView<Eigen::Lower>().solveInPlace(pivots);
-        part.tail(r).noalias() -= front.columns.bottomRows(r) * pivots;
-        Eigen::Index k = 0;
-        for (const int node : front.pivots) own[at(node)] = part.segment<2>(2 * k++);
-        for (const int node : front.rest) own[at(node)] = part.segment<2>(2 * k++);
-    };
-    const auto backward = [&](const Front& front) {
-        const Eigen::Index p = size_of(front.pivots), r = size_of(front.rest);
-        gather(front);
-        auto pivots = part.head(p);
-        pivots.noalias() -= front.columns.bottomRows(r).transpose() * part.tail(r);
-        front.columns.topRows(p).triangularView<Eigen::Lower>().transpose().solveInPlace(pivots);
-        Eigen::Index k = 0;
-        for (const int node : front.pivots) own[at(node)] = part.segment<2>(2 * k++);
-    };
-    for (std::size_t g = 0; g < grain_.size(); ++g) {
-        own = b.subspan(g * grains_.nodes(), grains_.nodes());
-        for (const Front& front : grain_[g].front) forward(front);
-    }
-    own = b;
-    for (const Front& front : front_) forward(front);
-    for (auto front = front_.rbegin(); front != front_.rend(); ++front) backward(*front);
-    for (std::size_t g = 0; g < grain_.size(); ++g) {
-        own = b.subspan(g * grains_.nodes(), grains_.nodes());
+void FrontSolver::begin(std::span<const Vec2> b) {
+    begun_.assign(b.begin(), b.end());
+#pragma omp parallel for schedule(static) if (grains_.threads)
+    for (std::size_t g = 0; g < grain_.size(); ++g)
+        for (const Front& front : grain_[g].front)
+            front.forward(std::span(begun_).subspan(g * grains_.nodes(), grains_.nodes()));
+}
+
+void FrontSolver::solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) {
+    for (std::size_t m = 0; m < x.size(); ++m) x[m] = begun_[m] + c[m];
+    for (const Front& front : front_) front.forward(x);
+    for (auto front = front_.rbegin(); front != front_.rend(); ++front) front->backward(x);
+}
+
+void FrontSolver::finish(std::span<Vec2> x) {
+#pragma omp parallel for schedule(static) if (grains_.threads)
+    for (std::size_t g = 0; g < grain_.size(); ++g)
         for (auto front = grain_[g].front.rbegin(); front != grain_[g].front.rend(); ++front)
-            backward(*front);
-    }
+            front->backward(x.subspan(g * grains_.nodes(), grains_.nodes()));
 }
 
 }  // namespace softgrain::mpm

@@ -18,7 +18,9 @@ class FrontSolver final : public LinearSolver {
     explicit FrontSolver(const Grains& grains) : grains_(grains) {}
     bool factor_grains(const Stiffness& K) override;
     bool factor_contacts(const Stiffness& K) override;
-    void solve(std::span<Vec2> b) override;
+    void begin(std::span<const Vec2> b) override;
+    void solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) override;
+    void finish(std::span<Vec2> x) override;
 
     /// Floating-point operations of the last factorization, without those of sums.
     double operations() const { return operations_; }
@@ -28,8 +30,16 @@ class FrontSolver final : public LinearSolver {
     struct Front {
         std::vector<int> pivots, rest;  ///< ascending
         std::vector<int> elements;      ///< summed here
-        Eigen::MatrixXd columns;        ///< [2 (pivots + rest) x 2 pivots]
-        Eigen::MatrixXd left;           ///< of the rest, until it is summed elsewhere; lower triangle
+        Eigen::MatrixXd columns;        ///< of the pivots [2 (pivots + rest) x 2 pivots]
+        Eigen::MatrixXd left;           ///< what they leave of the rest; lower triangle
+
+        void clear();
+        /// Adds the lower triangle of a matrix on some of the nodes.
+        void add(const Eigen::MatrixXd& from, const std::vector<int>& nodes);
+        /// False if the pivots are not positive definite.
+        bool reduce();
+        void forward(std::span<Vec2> x) const;
+        void backward(std::span<Vec2> x) const;
     };
     /// Nodes without contact of a grain, and what they leave to the others.
     struct GrainFronts {
@@ -54,6 +64,7 @@ class FrontSolver final : public LinearSolver {
     std::vector<Front> front_;
     std::vector<int> level_start_;  ///< fronts of a level need only fronts of levels before
     std::vector<int> by_level_;
+    std::vector<Vec2> begun_;  ///< right side after the grains' own elimination
     double operations_ = 0.0;
 };
 

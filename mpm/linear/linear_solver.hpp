@@ -21,11 +21,16 @@ class LinearSolver {
     virtual ~LinearSolver() = default;
     /// What grains do alone, and which nodes contacts touch. False if it is not positive definite.
     virtual bool factor_grains(const Stiffness& K) = 0;
-    /// The rest, for the same grains and nodes: once or more. False if K is not positive definite; solve() is
-    /// then not allowed.
+    /// The rest, for the same grains and nodes: once or more. False if K is not positive definite; it is then
+    /// not to be solved with.
     virtual bool factor_contacts(const Stiffness& K) = 0;
-    /// b [all nodes] becomes x.
-    virtual void solve(std::span<Vec2> b) = 0;
+
+    /// Begins to solve K x = b + c for forces c that change only nodes of contacts; b [all nodes].
+    virtual void begin(std::span<const Vec2> b) = 0;
+    /// x of the nodes of contacts for these c [all nodes]; others of x are not to be used yet.
+    virtual void solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) = 0;
+    /// The rest of the last x.
+    virtual void finish(std::span<Vec2> x) = 0;
 };
 
 }  // namespace softgrain::mpm

@@ -40,9 +40,10 @@ bool SparseSolver::factor_contacts(const Stiffness& K) {
     return cholesky_.info() == Eigen::Success;
 }
 
-void SparseSolver::solve(std::span<Vec2> b) {
-    Eigen::Map<Eigen::VectorXd> x(b.front().data(), static_cast<Eigen::Index>(2 * b.size()));
-    x = cholesky_.solve(x).eval();
+void SparseSolver::solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) {
+    for (std::size_t m = 0; m < x.size(); ++m) x[m] = given_[m] + c[m];
+    Eigen::Map<Eigen::VectorXd> all(x.front().data(), static_cast<Eigen::Index>(2 * x.size()));
+    all = cholesky_.solve(all).eval();
 }
 
 }  // namespace softgrain::mpm

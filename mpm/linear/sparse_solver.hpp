@@ -11,10 +11,13 @@ class SparseSolver final : public LinearSolver {
     explicit SparseSolver(const Grains& grains) : grains_(grains) {}
     bool factor_grains(const Stiffness&) override { return true; }
     bool factor_contacts(const Stiffness& K) override;
-    void solve(std::span<Vec2> b) override;
+    void begin(std::span<const Vec2> b) override { given_.assign(b.begin(), b.end()); }
+    void solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) override;
+    void finish(std::span<Vec2>) override {}
 
   private:
     const Grains& grains_;
+    std::vector<Vec2> given_;
     Eigen::SparseMatrix<double> matrix_;
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky_;
 };

@@ -29,6 +29,7 @@ struct Bands {
     double fall;                   ///< relative error of the way of a free fall
     double weight;                 ///< relative error of the mean force and stress of a column at rest
     double trembling;              ///< the same of a single step; 1: says nothing
+    bool inertia = true;           ///< its grains have momentum; else every step ends in equilibrium
     double cell =
         0.0;  ///< periodic cell: relative difference of stress by another choice of its edges; 0: none
 };
@@ -51,7 +52,9 @@ Packing square_lattice(int side);
 /// The packing turned by 90 degrees or mirrored about the box's middle: x' = middle + image (x - middle).
 Packing image_of(const Packing& packing, const Mat2& image);
 
-/// A stage that goes to this pressure, and the scenario of such stages with friction.
+bool has_friction(const Bands& bands);
+
+/// A stage that goes to this pressure, and the scenario of such stages, with friction if the method has it.
 LoadingStage to_pressure(double pressure, double inertial_number);
 Scenario served(const Bands& bands, std::vector<LoadingStage> stages);
 
