@@ -73,6 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, StepResponses, ::testing::ValuesIn(all_bands()
                          [](const auto& instance) { return instance.param.method; });
 
 TEST_P(StepResponses, StressComesToItsTargetWithoutGoingBeyond) {
+    if (!GetParam().inertia)
+        GTEST_SKIP() << "the servo takes its time from waves, which these grains do not have";
     step_up_and_down(jammed_box(20));
 }
 

@@ -5,6 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-build/release/bin/softgrain compare scenarios/default.toml --out "$folder" --force --no-pictures --quiet
+build/release/bin/softgrain compare scenarios/default.toml --methods sdem,bpm,rigid_dem --out "$folder" --force --no-pictures --quiet
 cp "$folder/comparison.csv" tests/golden/default_comparison.csv
 git --no-pager diff --stat -- tests/golden
