@@ -58,7 +58,8 @@ TEST_P(Served, ARestartedRunHasTheSameBits) {
     ASSERT_EQ(whole.state().ended, "loading done");
     Checkpoint one;
     whole.state().save(one);
-    for (const double part : {0.3, 0.7, 0.98}) {
+    // Without inertia the servo has no waves to take its time from, and goes on in many small steps.
+    for (const double part : GetParam().inertia ? std::vector{0.3, 0.7, 0.98} : std::vector{0.7}) {
         Checkpoint loop, grains;
         const auto first = make(GetParam(), all, packing);
         TimeLoop begun(all, packing, *first, {});

@@ -7,7 +7,9 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "discs.hpp"
@@ -59,8 +61,10 @@ class DenseCurve {
                high = (static_cast<double>(best) + 1.0) / per_span;
         while (high - low > 1e-9) {
             const double a = high - golden * (high - low), b = low + golden * (high - low);
-            ((curve(control_, a) - p).squaredNorm() < (curve(control_, b) - p).squaredNorm() ? high : low) =
-                (curve(control_, a) - p).squaredNorm() < (curve(control_, b) - p).squaredNorm() ? b : a;
+            if ((curve(control_, a) - p).squaredNorm() < (curve(control_, b) - p).squaredNorm())
+                high = b;
+            else
+                low = a;
         }
         const double u = 0.5 * (low + high);
         return {u, (curve(control_, u) - p).norm(), std::abs(turned) > pi};
@@ -271,17 +275,16 @@ TEST(Contacts, ForceIsTheDerivativeOfTheEnergy) {
 }
 
 TEST(Contacts, ActionIsReaction) {
-    const Scene scene(1, 2, 3);
-    ASSERT_GE(scene.contacts().groups().size(), 15U);
-    // Forces of the pairs alone: walls far away.
-    Scene apart(1, 2, 3);
-    apart.evaluate(apart.q(), Box{{-9.0, 9.0, -9.0, 9.0}});
+    // Without walls.
+    Scene scene(1, 2, 3);
+    scene.evaluate(scene.q(), Box{{-9.0, 9.0, -9.0, 9.0}});
+    ASSERT_GE(scene.contacts().groups().size(), 8U);
     Vec2 sum = Vec2::Zero();
     double moment = 0.0, size = 0.0;
-    for (std::size_t m = 0; m < apart.q().size(); ++m) {
-        sum += apart.force()[m];
-        moment += cross(apart.q()[m], apart.force()[m]);
-        size += apart.force()[m].norm();
+    for (std::size_t m = 0; m < scene.q().size(); ++m) {
+        sum += scene.force()[m];
+        moment += cross(scene.q()[m], scene.force()[m]);
+        size += scene.force()[m].norm();
     }
     EXPECT_GT(size, 1.0);
     EXPECT_LT(sum.norm(), 1e-15 * size);
@@ -290,9 +293,8 @@ TEST(Contacts, ActionIsReaction) {
 }
 
 TEST(Contacts, EachPairBalances) {
-    std::mt19937_64 random(6);
-    for (int k = 0; k < 20; ++k) {
-        Scene scene(static_cast<unsigned>(k), 1, 2);
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        Scene scene(seed, 1, 2);
         scene.evaluate(scene.q(), Box{{-9.0, 9.0, -9.0, 9.0}});
         ASSERT_EQ(scene.contacts().groups().size(), 1U);
         std::array<Vec2, 2> sum{Vec2::Zero(), Vec2::Zero()};

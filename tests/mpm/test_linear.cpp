@@ -435,8 +435,8 @@ VectorXd solve_by(const std::vector<EliminationStep>& steps, const std::vector<s
                         part.matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         }
         const MatrixXd pivots = front.topLeftCorner(p, p), below = front.bottomLeftCorner(r, p);
-        const MatrixXd eliminated = pivots.llt().solve(below.transpose());
-        parts.push_back({step.rest, front.bottomRightCorner(r, r) - below * eliminated});
+        const MatrixXd inverse = pivots.llt().solve(MatrixXd::Identity(p, p));
+        parts.push_back({step.rest, front.bottomRightCorner(r, r) - below * inverse * below.transpose()});
         columns.push_back({node, front.leftCols(p)});
     }
     // Forward: what the pivots leave; backward: the pivots from the rest.
