@@ -48,7 +48,7 @@ struct Cell {
 /// the circle and the sides of the cell, so that the area is exact.
 ///
 /// The surface is a closed quadratic B-spline curve through `controls` control points, which are themselves
-/// rows of shape functions; it follows the circle to 1e-8 for 100 control points.
+/// rows of shape functions; it follows the circle to (pi/n)^4/8 for n control points.
 struct ReferenceDisc {
     /// cells: across a radius, 2 to 64. Throws InputError else.
     explicit ReferenceDisc(int cells);
