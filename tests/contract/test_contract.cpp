@@ -153,7 +153,7 @@ TEST_P(Contract, LookingAtTheGrainsDoesNotChangeThem) {
 
 TEST_P(Contract, TwoThreadsGiveTheBitsOfOne) {
     const bool grains_have_parts = GetParam().method == "bpm" || GetParam().method == "mpm";
-    const Packing packing = square_lattice(grains_have_parts ? 8 : 36);
+    const Packing packing = square_lattice(!grains_have_parts ? 36 : GetParam().inertia ? 8 : 4);
     expect_threads_keep_bits([&] { return solver_for(packing); }, {1, 2},
                              [&](Solver& solver) {
                                  squeeze(solver, packing.box, 0.02,

@@ -46,7 +46,7 @@ TEST_P(Served, ARestartedRunHasTheSameBits) {
     biaxial.kind = LoadingKind::biaxial;
     biaxial.lateral_stress = pressure;
     biaxial.until_unbalanced.reset();
-    biaxial.until_strain = 0.03;
+    biaxial.until_strain = GetParam().inertia ? 0.03 : 0.01;
     LoadingStage probe = consolidate;
     probe.kind = LoadingKind::probe;
     probe.direction = 45.0;
