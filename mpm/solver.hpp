@@ -57,7 +57,6 @@ class MpmSolver final : public Solver {
     void find_centroids();
     void find_energy();
     double work_of_gravity() const;
-    void view_contacts();
     void view_stress();
     void view_outlines();
     void view_parts(GrainView& view);
