@@ -152,7 +152,6 @@ bool MpmSolver::move_walls(const Box& to, EquilibriumResult& result) {
     }
     wall_force_ = force;
     box_ = to;
-    residual_ = result.residual;
     flow();
     find_centroids();
     // What rearrangements set free is taken away by the search for the next equilibrium.

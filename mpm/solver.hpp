@@ -77,7 +77,6 @@ class MpmSolver final : public Solver {
     Box box_;
     std::array<Vec2, 4> wall_force_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     EnergyLedger energy_;
-    double residual_ = 0.0;
     double iterations_of_step_ = 0.0;
     long long iterations_ = 0;
 

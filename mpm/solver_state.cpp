@@ -27,7 +27,7 @@ void MpmSolver::save(Checkpoint& to) const {
     to.put("mpm.box", std::span<const double>(box_.position));
     to.put("mpm.wall_force", std::span<const Vec2>(wall_force_));
     const std::array scalars{
-        time_,        energy_.external_work, residual_, iterations_of_step_, static_cast<double>(iterations_),
+        time_,        energy_.external_work, iterations_of_step_, static_cast<double>(iterations_),
         strain_rate_, energy_.damping};
     to.put("mpm.scalars", std::span<const double>(scalars));
     std::vector<double> plastic;
@@ -47,7 +47,7 @@ void MpmSolver::load(const Checkpoint& from) {
     from.get("mpm.scalars", scalars);
     from.get("mpm.plastic", plastic);
     if (q.size() != q_.size() || velocity.size() != grains_.size() || box.size() != 4 ||
-        wall_force.size() != 4 || scalars.size() != 7 ||
+        wall_force.size() != 4 || scalars.size() != 6 ||
         plastic.size() != numbers_of_a_state * equilibrium_->plastic.size())
         throw InputError(
             "checkpoint: its grains are not those of this scenario; use the same scenario, packing and "
@@ -58,11 +58,10 @@ void MpmSolver::load(const Checkpoint& from) {
     std::copy(wall_force.begin(), wall_force.end(), wall_force_.begin());
     time_ = scalars[0];
     energy_.external_work = scalars[1];
-    residual_ = scalars[2];
-    iterations_of_step_ = scalars[3];
-    iterations_ = static_cast<long long>(scalars[4]);
-    strain_rate_ = scalars[5];
-    energy_.damping = scalars[6];
+    iterations_of_step_ = scalars[2];
+    iterations_ = static_cast<long long>(scalars[3]);
+    strain_rate_ = scalars[4];
+    energy_.damping = scalars[5];
     for (std::size_t k = 0; k < equilibrium_->plastic.size(); ++k) {
         const double* s = plastic.data() + numbers_of_a_state * k;
         equilibrium_->plastic[k] = {s[0], s[1], s[2], s[3], s[4], s[5]};

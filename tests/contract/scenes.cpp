@@ -18,7 +18,8 @@ const std::vector<Bands>& all_bands() {
         {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0, 0.07, 2e-3, 25.0, 1.0, 1e-10, 0.02, 1.0},
         {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 5e-4, 700.0, 1.0, 1e-10, 1e-6,
          1e-6, true, 1e-8},
-        // Resolved grains, in equilibrium to 1e-5 of the largest force of a node: a reaction is the sum of many
+        // Resolved grains, in equilibrium to 1e-5 of the largest force of a node: a reaction is the sum of
+        // many
         // nodes. Where the search for an equilibrium ends depends on rounding, within that tolerance. Shape
         // functions sum to one within rounding.
         {"mpm", 1e-14, 1e-14, 1e-5, 1e-4, 1e-3, 5e-3, 1e-12, 1.0, 5e-3, 1e-3, 350.0, 1.0, 1e-10, 1e-3, 1e-3,
