@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/contact/model_search.hpp"
+
 namespace softgrain::mpm {
 namespace {
 
@@ -17,14 +19,30 @@ constexpr double hold_down = 0.1;
 constexpr double sufficient = 1e-4;
 constexpr int most_halvings = 6;
 /// Most looks at which points a step makes touch.
-constexpr int most_looks = 6;
+constexpr int most_looks = 12;
 /// Largest motion of a node in an iteration [smallest radius].
 constexpr double longest_step = 0.3;
 /// Energies are not compared closer than this [energy].
 constexpr double rounding_of_energy = 1e-13;
+/// Energies that differ by less are equal if forces say so [energy].
+constexpr double blur_of_energy = 1e-9;
 /// Floor of the force that residuals are compared with [modulus * grid spacing].
 constexpr double least_force = 1e-5;
 constexpr std::size_t worth_threads = 2;  // grains
+
+/// Of the components of forces.
+struct Largest {
+    double size = 0.0;
+    int node = 0;
+};
+Largest largest_of(std::span<const Vec2> force) {
+    Largest largest;
+    for (std::size_t m = 0; m < force.size(); ++m) {
+        const double f = force[m].cwiseAbs().maxCoeff();
+        if (f > largest.size) largest = {f, static_cast<int>(m)};
+    }
+    return largest;
+}
 
 }  // namespace
 
@@ -36,7 +54,10 @@ Equilibrium::Equilibrium(Grains& grains, const EquilibriumSettings& settings,
       linear_(std::move(linear)),
       work_(static_cast<std::size_t>(omp_get_max_threads()),
             GrainForces(*grains.disc, *grains.pattern, settings.mean_dilatation)),
+      mass_(*grains.disc, *grains.pattern),
       contacts_(grains, settings.penalty),
+
+      friction_(grains, settings.friction, settings.wall_friction),
       model_(grains),
       radius_(std::numeric_limits<double>::infinity()) {
     for (const Grain& grain : grains_.grain) {
@@ -44,6 +65,7 @@ Equilibrium::Equilibrium(Grains& grains, const EquilibriumSettings& settings,
         radius_ = std::min(radius_, grain.radius);
     }
     step_.resize(grains_.all_nodes());
+    looked_.resize(grains_.all_nodes());
     pushes_.resize(grains_.all_nodes());
     for (Trial* trial : {&trial_, &farther_}) {
         trial->q.resize(grains_.all_nodes());
@@ -54,6 +76,11 @@ Equilibrium::Equilibrium(Grains& grains, const EquilibriumSettings& settings,
 std::span<const PlasticState> Equilibrium::plastic_of(std::size_t g) const {
     if (plastic.empty()) return {};
     return {plastic.data() + g * grains_.points(), grains_.points()};
+}
+
+void Equilibrium::set_inertia(std::span<const Vec2> to, double dt) {
+    drift_.assign(to.begin(), to.end());
+    per_dt2_ = 1.0 / (dt * dt);
 }
 
 double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<Vec2> force) {
@@ -67,6 +94,7 @@ double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<
         std::fill(own.begin(), own.end(), Vec2::Zero());
         energy[g] = work.evaluate(grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), own, {});
         for (const Vec2& f : own) largest[g] = std::max(largest[g], f.cwiseAbs().maxCoeff());
+        if (per_dt2_ > 0.0) height[g] += add_inertia(g, q, own);
         for (std::size_t m = 0; falls && m < nodes; ++m) {
             const Vec2 weight = grains_.mass_of_node(g, m) * settings_.gravity;
             height[g] -= weight.dot(q[g * nodes + m]);
@@ -85,7 +113,36 @@ double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<
     if (!std::isfinite(elastic_)) return elastic_;
     surfaces_.update(grains_, q);
     elastic_ += contacts_.evaluate(surfaces_, box, force);
-    return elastic_ + potential;
+    return elastic_ + potential + friction_.evaluate(surfaces_, force);
+}
+
+void Equilibrium::begin_slip(std::span<const Vec2> q, const Box& box, std::span<Vec2> force) {
+    evaluate(q, box, force);
+    if (!friction_.exists()) return;
+    friction_.begin(surfaces_);
+    friction_.lag(contacts_);
+    evaluate(q, box, force);
+}
+
+std::array<Vec2, 4> Equilibrium::wall_force() const {
+    std::array<Vec2, 4> sum = contacts_.wall_force();
+    for (std::size_t w = 0; w < sum.size(); ++w) sum[w] += friction_.wall_force()[w];
+    return sum;
+}
+
+/// Energy; adds its derivative to that of the nodes of a grain.
+double Equilibrium::add_inertia(std::size_t g, std::span<const Vec2> q, std::span<Vec2> own) const {
+    const std::size_t nodes = grains_.nodes();
+    std::vector<Vec2> away(nodes), pull(nodes);
+    for (std::size_t m = 0; m < nodes; ++m) away[m] = q[g * nodes + m] - drift_[g * nodes + m];
+    mass_.apply(away, pull);
+    const double scale = grains_.grain[g].density * grains_.grain[g].area * per_dt2_;
+    double energy = 0.0;
+    for (std::size_t m = 0; m < nodes; ++m) {
+        own[m] += scale * pull[m];
+        energy += 0.5 * scale * away[m].dot(pull[m]);
+    }
+    return energy;
 }
 
 void Equilibrium::find_grain_stiffness(std::span<const Vec2> q) {
@@ -95,16 +152,20 @@ void Equilibrium::find_grain_stiffness(std::span<const Vec2> q) {
     {
         std::vector<Vec2> unused(nodes, Vec2::Zero());
 #pragma omp for schedule(static)
-        for (std::size_t g = 0; g < grains_.size(); ++g)
+        for (std::size_t g = 0; g < grains_.size(); ++g) {
+            const std::span<Mat2> own{stiffness_.grain.data() + g * places, places};
             work_[static_cast<std::size_t>(omp_get_thread_num())].evaluate(
-                grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), unused,
-                {stiffness_.grain.data() + g * places, places});
+                grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), unused, own);
+            const double scale = grains_.grain[g].density * grains_.grain[g].area * per_dt2_;
+            for (std::size_t k = 0; scale > 0.0 && k < places; ++k)
+                own[k].diagonal().array() += scale * mass_.in_pattern()[k];
+        }
     }
 }
 
 bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force, EquilibriumResult& result) {
     find_grain_stiffness(q);
-    model_.build(contacts_);
+    model_.build(contacts_, friction_.sliders());
     model_.find_active({}, active_);
     model_.find_stiffness(active_, stiffness_.contact);
     // What pulls the nodes without contacts: those of the model take their place.
@@ -120,6 +181,7 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
         }
     }
     linear_->begin(alone);
+    ModelSearch search(model_);
     for (int look = 1;; ++look) {
         while (true) {
             stiffness_.contact_shift = modulus_ * hold_;
@@ -133,10 +195,15 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
         }
         std::fill(pushes_.begin(), pushes_.end(), Vec2::Zero());
         model_.add_force(active_, pushes_);
-        linear_->solve_contacts(pushes_, step_);
-        model_.find_active(step_, next_active_);
-        if (next_active_ == active_ || look == most_looks) break;
-        active_.swap(next_active_);
+        linear_->solve_contacts(pushes_, looked_);
+        const double share = search.approach(looked_, active_);
+        if (share == 1.0)
+            step_.swap(looked_);
+        else
+            for (std::size_t m = 0; m < step_.size(); ++m) step_[m] += share * (looked_[m] - step_[m]);
+        const bool seen = share == 1.0 && std::ranges::equal(search.touches(), active_);
+        if (seen || look == most_looks) break;
+        active_.assign(search.touches().begin(), search.touches().end());
         model_.find_stiffness(active_, stiffness_.contact);
     }
     linear_->finish(step_);
@@ -152,16 +219,16 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
     EquilibriumResult result;
     std::vector<Vec2> force(q.size());
     double energy = evaluate(q, box, force);
+    if (friction_.exists()) friction_.begin(surfaces_);
     hold_ = 0.0;
     for (;; ++result.iterations) {
-        double largest = 0.0;
-        for (std::size_t m = 0; m < q.size(); ++m) {
-            const double f = force[m].cwiseAbs().maxCoeff();
-            if (f <= largest) continue;
-            largest = f;
-            result.worst_node = static_cast<int>(m);
+        if (friction_.exists()) {
+            friction_.lag(contacts_);
+            energy = evaluate(q, box, force);
         }
-        result.residual = largest / force_scale_;
+        const Largest largest = largest_of(force);
+        result.worst_node = largest.node;
+        result.residual = largest.size / force_scale_;
         if (!std::isfinite(energy)) {
             result.why = "a grain is inside out";
             return result;
@@ -185,12 +252,20 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
         }
         const double whole = std::min(1.0, longest_step * radius_ / longest);
         const double tiny = rounding_of_energy * std::abs(energy);
+        // Near the solution the energy no longer tells, but forces do.
+        const auto better = [&](double share) {
+            return trial_.energy <= energy - sufficient * share * slope + tiny ||
+                   (std::abs(trial_.energy - energy) < blur_of_energy * std::abs(energy) &&
+                    largest_of(trial_.force).size < largest.size);
+        };
         double share = whole;
-        for (int halving = 0; halving <= most_halvings; ++halving, share *= 0.5) {
+        bool found = false;
+        for (int halving = 0; halving <= most_halvings && !found; ++halving) {
+            if (halving > 0) share *= 0.5;
             try_step(q, share, box, trial_);
-            if (trial_.energy <= energy - sufficient * share * slope + tiny) break;
+            found = better(share);
         }
-        if (!(trial_.energy <= energy + tiny)) {
+        if (!found) {
             hold_more();
             energy = evaluate(q, box, force);
             continue;

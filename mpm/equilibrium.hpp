@@ -7,6 +7,8 @@
 #include "common/thread_choice.hpp"
 #include "mpm/contact/contact_model.hpp"
 #include "mpm/contact/contacts.hpp"
+#include "mpm/contact/friction.hpp"
+#include "mpm/dynamics/mass.hpp"
 #include "mpm/grain_forces.hpp"
 #include "mpm/grains.hpp"
 #include "mpm/linear/linear_solver.hpp"
@@ -19,6 +21,7 @@ struct EquilibriumSettings {
     double penalty = 200.0;  ///< contact stiffness [modulus / grid spacing]
     bool mean_dilatation = false;
     Vec2 gravity = Vec2::Zero();  ///< [m/s^2]
+    double friction = 0.0, wall_friction = 0.0;  ///< Coulomb coefficients
 };
 
 struct EquilibriumResult {
@@ -32,19 +35,30 @@ struct EquilibriumResult {
 
 /// Each step minimises a model of the energy: quadratic in the grains, with gaps that open and close linearly
 /// (ContactModel), so that points which a step makes touch are foreseen. Where the energy is not convex the
-/// nodes of contacts are held by springs to where they are (Levenberg 1944); none is left at the end.
+/// nodes of contacts are held by springs to where they are (Levenberg 1944); none is left at the end. What
+/// friction depends on, normal forces and places, is that of the last step until it no longer changes.
 class Equilibrium {
   public:
     Equilibrium(Grains& grains, const EquilibriumSettings& settings, std::unique_ptr<LinearSolver> linear);
 
     /// Energy at q [J] and its derivative; infinite where a grain is inside out.
     double evaluate(std::span<const Vec2> q, const Box& box, std::span<Vec2> force);
+    /// From now on nodes resist to come to other places than `to` [all nodes] with the mass of grains over
+    /// dt^2: a step of the implicit Euler method. dt infinite: they do not, which is the state at first.
+    void set_inertia(std::span<const Vec2> to, double dt);
+    /// Friction starts from q as it is: springs keep their force, slip is none.
+    void begin_slip(std::span<const Vec2> q, const Box& box, std::span<Vec2> force);
     /// Starts at q and leaves the solution in it, or the last try.
     EquilibriumResult find(std::vector<Vec2>& q, const Box& box);
     /// Of the last evaluate().
     const Contacts& contacts() const { return contacts_; }
+    const Mass& mass() const { return mass_; }
     const Surfaces& surfaces() const { return surfaces_; }
-    /// Stored in grains and contacts [J].
+    Friction& friction() { return friction_; }
+    const Friction& friction() const { return friction_; }
+    /// By grains on walls [N].
+    std::array<Vec2, 4> wall_force() const;
+    /// Stored in grains and contacts, without friction's springs [J].
     double elastic_energy() const { return elastic_; }
 
     /// Plastic states of the last step [grains * points], or empty.
@@ -58,6 +72,7 @@ class Equilibrium {
         double energy;
     };
 
+    double add_inertia(std::size_t g, std::span<const Vec2> q, std::span<Vec2> own) const;
     void find_grain_stiffness(std::span<const Vec2> q);
     /// Newton's step from q, where the force is known. False if there is none; raises the hold where it must.
     bool find_step(std::span<const Vec2> q, std::span<const Vec2> force, EquilibriumResult& result);
@@ -71,9 +86,13 @@ class Equilibrium {
     EquilibriumSettings settings_;
     std::unique_ptr<LinearSolver> linear_;
     std::vector<GrainForces> work_;  ///< one a thread
+    Mass mass_;
     Contacts contacts_;
+    Friction friction_;
     ContactModel model_;
     Surfaces surfaces_;
+    std::vector<Vec2> drift_;  ///< where inertia takes the nodes
+    double per_dt2_ = 0.0;     ///< 0: no inertia [1/s^2]
     Stiffness stiffness_;
     double modulus_ = 0.0, radius_;  ///< largest, smallest
     double elastic_ = 0.0;
@@ -82,7 +101,8 @@ class Equilibrium {
     double hold_ = 0.0;         ///< spring of the nodes of contacts [largest modulus]
     std::vector<Vec2> step_;    ///< towards lower energy
     std::vector<Vec2> pushes_;  ///< of contacts on nodes
-    std::vector<char> active_, next_active_;
+    std::vector<Vec2> looked_;  ///< step for touches as foreseen
+    std::vector<Touch> active_;
     Trial trial_, farther_;
 };
 

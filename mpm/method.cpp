@@ -29,7 +29,7 @@ std::vector<KeyFault> faults_of(const Settings& settings) {
 }
 
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 7> table{{
+    static const std::array<KeySpec, 9> table{{
         {"law",
          KeyType::text,
          std::string("neo_hookean"),
@@ -39,6 +39,13 @@ std::span<const KeySpec> keys() {
          "small strains without rotation only",
          any_number,
          {"neo_hookean", "saint_venant_kirchhoff", "linear"}},
+        {"driver",
+         KeyType::text,
+         std::string("quasi_static"),
+         "",
+         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for friction",
+         any_number,
+         {"quasi_static", "implicit"}},
         {"points_across_radius",
          KeyType::integer,
          std::int64_t{16},
@@ -69,8 +76,14 @@ std::span<const KeySpec> keys() {
          KeyType::number,
          0.004,
          "",
-         "largest motion of a wall, as a share of the box, after which an equilibrium is looked for",
+         "largest motion of a wall in a step, as a share of the box",
          {1e-6, 0.1}},
+        {"time_step",
+         KeyType::number,
+         50.0,
+         "radius of the smallest grain / sqrt(E/rho)",
+         "largest step of implicit dynamics",
+         {1e-3, 1e6}},
     }};
     return table;
 }
@@ -78,14 +91,17 @@ std::span<const KeySpec> keys() {
 constexpr std::array refusals{
     Refusal{Feature::periodic_cell, "its contacts know only walls"},
     Refusal{Feature::clumps, "its grains are discs or ellipses"},
-    Refusal{Feature::friction, "it finds equilibria of frictionless grains"},
-    Refusal{Feature::wall_friction, "it finds equilibria of frictionless grains"},
     Refusal{Feature::cohesion, "its surfaces only repel each other"},
     Refusal{Feature::driven_grains, "its grains are deformable"},
 };
 
 std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
     refuse(scenario, packing, "mpm", refusals);
+    const bool rubs = scenario.material.friction > 0.0 || scenario.material.wall_friction > 0.0;
+    if (rubs && settings_of(scenario).driver == Driver::quasi_static)
+        throw InputError(
+            "mpm.driver = \"quasi_static\" finds equilibria, and with friction there is more than one; set "
+            "material.friction and material.wall_friction to 0 or use mpm.driver = \"implicit\"");
     return std::make_unique<MpmSolver>(scenario, packing);
 }
 
@@ -99,7 +115,9 @@ MpmSettings settings_of(const Scenario& scenario) {
     MpmSettings s;
     s.law = law_named(settings.text("law"));
     s.cells = static_cast<int>(settings.integer("points_across_radius")) / points_per_cell;
+    s.driver = settings.text("driver") == "implicit" ? Driver::implicit : Driver::quasi_static;
     s.strain_step = settings.number("strain_step");
+    s.time_step = settings.number("time_step");
     s.equilibrium.tolerance = settings.number("tolerance");
     s.equilibrium.most_iterations = static_cast<int>(settings.integer("max_iterations"));
     s.equilibrium.penalty = settings.number("penalty");

@@ -29,6 +29,8 @@ MpmSolver::MpmSolver(const Scenario& scenario, const Packing& packing)
     : settings_(settings_of(scenario)), box_(packing.box) {
     if (packing.size() == 0) throw InputError("mpm: the packing has no grains");
     settings_.equilibrium.gravity = scenario.box.gravity;
+    settings_.equilibrium.friction = scenario.material.friction;
+    settings_.equilibrium.wall_friction = scenario.material.wall_friction;
     make_grains(scenario, packing);
     forces_ =
         std::make_unique<GrainForces>(*grains_.disc, *grains_.pattern, settings_.equilibrium.mean_dilatation);
@@ -39,7 +41,7 @@ MpmSolver::MpmSolver(const Scenario& scenario, const Packing& packing)
     force_.resize(q_.size());
     placed_ = packing.center;
     evaluate();
-    wall_force_ = equilibrium_->contacts().wall_force();
+    wall_force_ = equilibrium_->wall_force();
     velocity_.assign(grains_.size(), Vec2::Zero());
     find_centroids();
     find_energy();
@@ -72,7 +74,9 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
         mass_.push_back(grain.density * reference_area_.back());
         stress_scale_ += material.youngs_modulus * reference_area_.back();
         area += reference_area_.back();
+        crossing_ = std::min(crossing_, R * std::sqrt(grain.density / material.youngs_modulus));
     }
+    v_.assign(q_.size(), Vec2::Zero());
     stress_scale_ /= area;
     for (std::size_t g = 0; g < grains_.size(); ++g)
         for (std::size_t p = 0; p < grains_.points(); ++p) {
@@ -90,14 +94,17 @@ void MpmSolver::advance(const WallMotion& walls, double dt) {
     check_room(end, dt);
     strain_rate_ =
         std::max(std::abs(walls.width_rate()) / box_.width(), std::abs(walls.height_rate()) / box_.height());
-    const double parts = std::max(1.0, std::ceil(strain_rate_ * dt / settings_.strain_step * (1.0 - 1e-9)));
+    double parts = strain_rate_ * dt / settings_.strain_step;
+    if (settings_.driver == Driver::implicit)
+        parts = std::max(parts, dt / (settings_.time_step * crossing_));
+    parts = std::max(1.0, std::ceil(parts * (1.0 - 1e-9)));
     EquilibriumResult result;
     iterations_of_step_ = 0.0;
     double done = 0.0, part = 1.0 / parts;
     int halvings = 0;
     while (done < 1.0) {
         const double next = done + part > 1.0 - 1e-9 ? 1.0 : done + part;
-        if (move_walls(next == 1.0 ? end : between(walls.box, end, next), result)) {
+        if (move_walls(next == 1.0 ? end : between(walls.box, end, next), (next - done) * dt, result)) {
             done = next;
             if (halvings > 0) {
                 --halvings;
@@ -127,12 +134,20 @@ void MpmSolver::check_room(const Box& box, double dt) const {
 }
 
 double MpmSolver::stable_time_step() const {
-    return strain_rate_ > 0.0 ? settings_.strain_step / strain_rate_
-                              : std::numeric_limits<double>::infinity();
+    double dt = settings_.driver == Driver::implicit ? settings_.time_step * crossing_
+                                                     : std::numeric_limits<double>::infinity();
+    if (strain_rate_ > 0.0) dt = std::min(dt, settings_.strain_step / strain_rate_);
+    return dt;
 }
 
-bool MpmSolver::move_walls(const Box& to, EquilibriumResult& result) {
+bool MpmSolver::move_walls(const Box& to, double dt, EquilibriumResult& result) {
     const std::vector<Vec2> before = q_;
+    const bool dynamic = settings_.driver == Driver::implicit;
+    if (dynamic) {
+        for (std::size_t m = 0; m < q_.size(); ++m) q_[m] += dt * v_[m];
+        equilibrium_->set_inertia(q_, dt);
+        q_ = before;
+    }
     result = equilibrium_->find(q_, to);
     iterations_ += result.iterations;
     iterations_of_step_ += result.iterations;
@@ -140,7 +155,8 @@ bool MpmSolver::move_walls(const Box& to, EquilibriumResult& result) {
         q_ = before;
         return false;
     }
-    const std::array<Vec2, 4>& force = equilibrium_->contacts().wall_force();
+    for (std::size_t m = 0; dynamic && m < q_.size(); ++m) v_[m] = (q_[m] - before[m]) / dt;
+    const std::array<Vec2, 4> force = equilibrium_->wall_force();
     double work = -work_of_gravity();
     for (int w = 0; w < 4; ++w) {
         const auto k = static_cast<std::size_t>(w);
@@ -154,16 +170,29 @@ bool MpmSolver::move_walls(const Box& to, EquilibriumResult& result) {
     box_ = to;
     flow();
     find_centroids();
-    // What rearrangements set free is taken away by the search for the next equilibrium.
-    const double elastic = energy_.elastic, plastic = energy_.plastic;
+    // What rearrangements set free is taken away by the search for the next equilibrium, or by Euler's method.
+    const double stored = energy_.elastic + energy_.kinetic, plastic = energy_.plastic;
+    const double rubbed = equilibrium_->friction().end();
+    energy_.friction += rubbed;
     find_energy();
-    energy_.damping += work + work_of_gravity() - (energy_.elastic - elastic) - (energy_.plastic - plastic);
+    energy_.damping +=
+        work + work_of_gravity() - (energy_.elastic + energy_.kinetic - stored) - (energy_.plastic - plastic) - rubbed;
     return true;
 }
 
 void MpmSolver::find_energy() {
     energy_.elastic = equilibrium_->plastic.empty() ? equilibrium_->elastic_energy() : stored_energy();
+    energy_.elastic += equilibrium_->friction().stored();
     energy_.plastic = dissipated_by_flow();
+    energy_.kinetic = settings_.driver == Driver::implicit ? kinetic_energy() : 0.0;
+}
+
+double MpmSolver::kinetic_energy() const {
+    double sum = 0.0;
+    for (std::size_t g = 0; g < grains_.size(); ++g)
+        sum += 0.5 * grains_.grain[g].density * grains_.grain[g].area *
+               equilibrium_->mass().squared(grains_.of(v_, g));
+    return sum;
 }
 
 void MpmSolver::find_centroids() {
@@ -186,7 +215,7 @@ void MpmSolver::flow() {
 
 /// Energy, forces and contacts of the state as it is.
 void MpmSolver::evaluate() {
-    equilibrium_->evaluate(q_, box_, force_);
+    equilibrium_->begin_slip(q_, box_, force_);
 }
 
 }  // namespace softgrain::mpm

@@ -11,19 +11,23 @@
 
 namespace softgrain::mpm {
 
+enum class Driver { quasi_static, implicit };
+
 /// Values of the scenario table [mpm]; see mpm/method.cpp for units and defaults.
 struct MpmSettings {
     LawKind law;
+    Driver driver;
     int cells;           ///< of a grain's grid, across its radius
-    double strain_step;  ///< largest strain of the box that one equilibrium is looked for after
+    double strain_step;  ///< largest strain of the box in a step of the implicit drivers
+    double time_step;    ///< largest of implicit dynamics [radius of the smallest grain / sqrt(E/rho)]
     EquilibriumSettings equilibrium;
 };
 
 /// Reads the table [mpm] of a scenario, defaults where there is none.
 MpmSettings settings_of(const Scenario& scenario);
 
-/// Quasi-static: time is only what the walls move by. Each step ends in equilibrium, found in as many smaller
-/// ones as it takes.
+/// quasi_static: time is only what the walls move by; each step ends in equilibrium. implicit: Euler's implicit
+/// method, which is equilibrium with inertia. Both in as many smaller steps as it takes.
 class MpmSolver final : public Solver {
   public:
     /// Throws InputError if the packing has no grains, DivergedError if its overlaps cannot be resolved.
@@ -48,14 +52,15 @@ class MpmSolver final : public Solver {
 
   private:
     void make_grains(const Scenario& scenario, const Packing& packing);
-    /// From the box as it is to another. False, and nothing has changed, if no equilibrium was found.
-    bool move_walls(const Box& to, EquilibriumResult& result);
+    /// From the box as it is to another, in dt. False, and nothing has changed, if no equilibrium was found.
+    bool move_walls(const Box& to, double dt, EquilibriumResult& result);
     /// Throws DivergedError if the grains could not be in it.
     void check_room(const Box& box, double dt) const;
     void evaluate();
     void flow();
     void find_centroids();
     void find_energy();
+    double kinetic_energy() const;
     double work_of_gravity() const;
     void view_stress();
     void view_outlines();
@@ -69,8 +74,10 @@ class MpmSolver final : public Solver {
     std::unique_ptr<Equilibrium> equilibrium_;
     std::unique_ptr<GrainForces> forces_;  ///< for views
     std::vector<Vec2> q_;                  ///< [grains * nodes] coefficients of positions [m]
+    std::vector<Vec2> v_;                  ///< and of velocities; zero without dynamics [m/s]
     std::vector<Vec2> force_;
     double stress_scale_ = 0.0;
+    double crossing_ = std::numeric_limits<double>::infinity();  ///< least radius / sqrt(E/rho) [s]
 
     double time_ = 0.0;
     double strain_rate_ = 0.0;  ///< of the box in the last step, of its faster axis [1/s]

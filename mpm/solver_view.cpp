@@ -51,7 +51,8 @@ GrainView MpmSolver::view(Need need) {
         view.covered_area = covered_area();
     }
     if (wants(need, Need::contacts)) {
-        contact_ = sum_grain_contacts(grains_, equilibrium_->surfaces(), equilibrium_->contacts());
+        contact_ = sum_grain_contacts(grains_, equilibrium_->surfaces(), equilibrium_->contacts(),
+                                      equilibrium_->friction().sliders());
         view.contacts = contact_;
     }
     if (wants(need, Need::stress)) {

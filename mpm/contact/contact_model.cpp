@@ -13,7 +13,7 @@ std::size_t at(int k) {
 
 }  // namespace
 
-void ContactModel::build(const Contacts& contacts) {
+void ContactModel::build(const Contacts& contacts, std::span<const Slider> sliders) {
     const ReferenceDisc& disc = *grains_.disc;
     const int nodes = static_cast<int>(grains_.nodes()), controls = static_cast<int>(disc.control.size());
     const std::size_t groups = contacts.groups().size();
@@ -70,7 +70,8 @@ void ContactModel::build(const Contacts& contacts) {
                              place.tangent,
                              bend,
                              place.speed,
-                             place.curvature};
+                             place.curvature,
+                             sliders.empty() ? Slider{} : sliders[at(p)]};
             group_of_[at(p)] = static_cast<int>(g);
         }
         std::sort(node.begin(), node.end());
@@ -80,21 +81,37 @@ void ContactModel::build(const Contacts& contacts) {
     }
 }
 
-void ContactModel::find_active(std::span<const Vec2> d, std::vector<char>& active) const {
+/// d(p - c).
+Vec2 ContactModel::difference(std::size_t p, std::span<const Vec2> d) const {
+    const auto& entry = entry_[at(group_of_[p])];
+    const auto& node = node_[at(group_of_[p])];
+    Vec2 sum = Vec2::Zero();
+    for (int k = point_[p].first; k < point_[p].first + point_[p].count; ++k)
+        sum += entry[at(k)].difference * d[at(node[at(entry[at(k)].local)])];
+    return sum;
+}
+
+Touch ContactModel::touch(std::size_t p, const Vec2& moved) const {
+    const Point& point = point_[p];
+    const Slider& slider = point.slider;
+    const double pull = slider.trial + slider.stiffness * point.tangent.dot(moved);
+    const bool holds = slider.stiffness == 0.0 || std::abs(pull) <= slider.most;
+    return {point.gap + point.normal.dot(moved) < 0.0, static_cast<signed char>(holds ? 0 : pull > 0.0 ? 1 : -1)};
+}
+
+Vec2 ContactModel::force(std::size_t p, const Vec2& moved, Touch as) const {
+    const Point& point = point_[p];
+    const Slider& slider = point.slider;
+    const double press = as.presses ? -point.stiffness * (point.gap + point.normal.dot(moved)) : 0.0;
+    const double pull = as.slides == 0 ? slider.trial + slider.stiffness * point.tangent.dot(moved)
+                                       : as.slides * slider.most;
+    return press * point.normal - pull * point.tangent;
+}
+
+void ContactModel::find_active(std::span<const Vec2> d, std::vector<Touch>& active) const {
     active.resize(point_.size());
-    for (std::size_t p = 0; p < point_.size(); ++p) {
-        const Point& point = point_[p];
-        double gap = point.gap;
-        if (!d.empty()) {
-            const auto& entry = entry_[at(group_of_[p])];
-            const auto& node = node_[at(group_of_[p])];
-            Vec2 difference = Vec2::Zero();
-            for (int k = point.first; k < point.first + point.count; ++k)
-                difference += entry[at(k)].difference * d[at(node[at(entry[at(k)].local)])];
-            gap += point.normal.dot(difference);
-        }
-        active[p] = gap < 0.0;
-    }
+    for (std::size_t p = 0; p < point_.size(); ++p)
+        active[p] = touch(p, d.empty() ? Vec2(Vec2::Zero()) : difference(p, d));
 }
 
 double ContactModel::energy(std::span<const Vec2> d) const {
@@ -111,6 +128,9 @@ double ContactModel::energy(std::span<const Vec2> d) const {
         }
         const double gap = std::min(0.0, point.gap + point.normal.dot(difference));
         const double b = point.tangent.dot(difference), beta = point.normal.dot(slope);
+        if (point.slider.stiffness > 0.0)
+            sum += point.slider.energy_at(point.slider.trial + point.slider.stiffness * b) -
+                   point.slider.energy_at(point.slider.start);
         sum += 0.5 * point.stiffness * gap * gap +
                0.5 * point.bend *
                    (point.curvature * b * b + 2.0 * point.speed * b * beta + point.gap * beta * beta);
@@ -118,13 +138,13 @@ double ContactModel::energy(std::span<const Vec2> d) const {
     return sum;
 }
 
-void ContactModel::add_force(std::span<const char> active, std::span<Vec2> force) const {
+void ContactModel::add_force(std::span<const Touch> active, std::span<Vec2> force) const {
     for (std::size_t p = 0; p < point_.size(); ++p) {
-        if (!active[p]) continue;
         const Point& point = point_[p];
+        if (!active[p].presses && point.slider.stiffness == 0.0) continue;
         const auto& entry = entry_[at(group_of_[p])];
         const auto& node = node_[at(group_of_[p])];
-        const Vec2 push = -point.stiffness * point.gap * point.normal;
+        const Vec2 push = this->force(p, Vec2::Zero(), active[p]);
         for (int k = point.first; k < point.first + point.count; ++k)
             force[at(node[at(entry[at(k)].local)])] += entry[at(k)].difference * push;
     }
@@ -132,7 +152,7 @@ void ContactModel::add_force(std::span<const char> active, std::span<Vec2> force
 
 /// d2(k/2 g^2) = k (dg dg + g d2g), -d2g = (kappa b b + L (b beta + beta b) + g beta beta) / (L^2 - g kappa)
 /// with dg = n.(dp - dc), b = t.(dp - dc), beta = n.d(dc/dt), L = |dc/dt|, kappa = n.d2c/dt2.
-void ContactModel::find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const {
+void ContactModel::find_stiffness(std::span<const Touch> active, std::vector<ContactStiffness>& out) const {
     out.resize(node_.size());
 #pragma omp parallel for schedule(dynamic, 4) if (grains_.threads)
     for (std::size_t g = 0; g < node_.size(); ++g) {
@@ -142,12 +162,13 @@ void ContactModel::find_stiffness(std::span<const char> active, std::vector<Cont
         K.matrix.setZero(size, size);
         for (int p = range_[g][0]; p < range_[g][1]; ++p) {
             const Point& point = point_[at(p)];
-            const double k = active[at(p)] ? point.stiffness : 0.0;
-            if (k == 0.0 && point.bend == 0.0) continue;
+            const double k = active[at(p)].presses ? point.stiffness : 0.0;
+            const double along = active[at(p)].slides == 0 ? point.slider.stiffness : 0.0;
+            if (k == 0.0 && along == 0.0 && point.bend == 0.0) continue;
             const Mat2 nn = point.normal * point.normal.transpose(),
                        tt = point.tangent * point.tangent.transpose(),
                        tn = point.tangent * point.normal.transpose();
-            const Mat2 difference = k * nn + point.bend * point.curvature * tt;
+            const Mat2 difference = k * nn + (along + point.bend * point.curvature) * tt;
             const Mat2 mixed = point.bend * point.speed * tn;
             const Mat2 slope = point.bend * point.gap * nn;
             const Entry* entry = entry_[g].data() + point.first;

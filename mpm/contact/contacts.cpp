@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/disc/quadratic_spline.hpp"
+#include "mpm/contact/spread.hpp"
 
 namespace softgrain::mpm {
 namespace {
@@ -123,27 +123,13 @@ double Contacts::evaluate(const Surfaces& surfaces, const Box& box, std::span<Ve
         }
     }
 
-    const ReferenceDisc& disc = *grains_.disc;
-    const int nodes = static_cast<int>(grains_.nodes()), controls = static_cast<int>(disc.control.size());
     energy_ = 0.0;
     for (const PointContact& c : points_) {
         if (!c.touches()) continue;
         energy_ += 0.5 * c.stiffness * c.place.gap * c.place.gap;
         const Vec2 push = -c.force() * c.place.normal;  // dU/d(gap) dgap/dx
-        const auto spread = [&](const ShapeRows& rows, int row, int grain, const Vec2& by) {
-            const auto r = static_cast<std::size_t>(row);
-            for (std::size_t k = 0; k < rows.nodes(r).size(); ++k)
-                force[static_cast<std::size_t>(grain * nodes + rows.nodes(r)[k])] += rows.values(r)[k] * by;
-        };
-        spread(disc.surface, c.point, c.i, push);
-        if (c.j < 0) {
-            wall_force_[static_cast<std::size_t>(-1 - c.j)] += push;
-            continue;
-        }
-        const SplineSpan s = spline_span(c.place.t);
-        for (int k = 0; k < 3; ++k)
-            spread(disc.control, (c.place.span + k) % controls, c.j,
-                   -s.value[static_cast<std::size_t>(k)] * push);
+        spread_on_contact(grains_, c, push, force);
+        if (c.j < 0) wall_force_[static_cast<std::size_t>(-1 - c.j)] += push;
     }
     return energy_;
 }

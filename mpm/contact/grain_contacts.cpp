@@ -16,16 +16,20 @@ double length_of(const Grains& grains, const Surfaces& surfaces, const PointCont
 }  // namespace
 
 std::vector<GrainContact> sum_grain_contacts(const Grains& grains, const Surfaces& surfaces,
-                                             const Contacts& contacts) {
+                                             const Contacts& contacts, std::span<const Slider> sliders) {
     std::vector<GrainContact> found;
     for (const ContactGroup& group : contacts.groups()) {
         GrainContact sum{group.i, group.j, Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), 0.0};
+        Vec2 rubbed = Vec2::Zero();
         double pressed = 0.0;
         for (int p = group.first; p < group.first + group.count; ++p) {
             const PointContact& c = contacts.points()[static_cast<std::size_t>(p)];
             if (!c.touches()) continue;
             const double f = c.force();
-            sum.force += (c.i == group.i ? f : -f) * c.place.normal;
+            const double sign = c.i == group.i ? 1.0 : -1.0;
+            sum.force += sign * f * c.place.normal;
+            if (!sliders.empty())
+                rubbed -= sign * sliders[static_cast<std::size_t>(p)].force() * c.place.tangent;
             sum.point += f * surfaces.points_of(
                                  grains, static_cast<std::size_t>(c.i))[static_cast<std::size_t>(c.point)];
             sum.length += length_of(grains, surfaces, c);
@@ -34,6 +38,7 @@ std::vector<GrainContact> sum_grain_contacts(const Grains& grains, const Surface
         if (pressed <= 0.0) continue;
         sum.point /= pressed;
         sum.normal = -sum.force.normalized();
+        sum.force += rubbed;
         found.push_back(sum);
     }
     return found;

@@ -524,10 +524,10 @@ TEST(ContactModel, HasTheForceAndTheEnergyOfNow) {
     const double energy = scene.evaluate(scene.q());
     scene.model().build(scene.contacts());
     ASSERT_EQ(scene.model().points(), scene.contacts().points().size());
-    std::vector<char> active;
+    std::vector<Touch> active;
     scene.model().find_active({}, active);
     for (std::size_t p = 0; p < active.size(); ++p)
-        EXPECT_EQ(active[p] != 0, scene.contacts().points()[p].touches());
+        EXPECT_EQ(active[p].presses, scene.contacts().points()[p].touches());
     std::vector<Vec2> force(scene.q().size(), Vec2{1.0, -1.0});
     scene.model().add_force(active, force);
     const double size = test::norm(scene.force());
@@ -540,7 +540,7 @@ TEST(ContactModel, HasTheForceAndTheEnergyOfNow) {
 TEST(ContactModel, StiffnessIsTheDerivativeOfTheForcesWithAllOfItsSecondVariation) {
     const auto scene = clear_scene(1e-5, 1e-4);
     scene->model().build(scene->contacts());
-    std::vector<char> active;
+    std::vector<Touch> active;
     scene->model().find_active({}, active);
     std::vector<ContactStiffness> K;
     scene->model().find_stiffness(active, K);
@@ -585,7 +585,7 @@ TEST(ContactModel, StiffnessIsTheDerivativeOfTheForcesWithAllOfItsSecondVariatio
 TEST(ContactModel, EnergyIsGoodToThirdOrder) {
     const auto scene = clear_scene(4e-5, 1e-3);
     scene->model().build(scene->contacts());
-    std::vector<char> active;
+    std::vector<Touch> active;
     scene->model().find_active({}, active);
     std::vector<ContactStiffness> K;
     scene->model().find_stiffness(active, K);
@@ -625,7 +625,7 @@ TEST(ContactModel, ForeseesWhichPointsWillTouch) {
             const Vec2 move = test::random_vector(random, 0.5 * size);
             for (Vec2& x : scene.grains().of(d, g)) x += move;
         }
-        std::vector<char> foreseen;
+        std::vector<Touch> foreseen;
         scene.model().find_active(d, foreseen);
         Surfaces moved;
         moved.update(scene.grains(), d);
@@ -634,7 +634,7 @@ TEST(ContactModel, ForeseesWhichPointsWillTouch) {
         for (std::size_t p = 0; p < points.size(); ++p) {
             const PointContact& c = points[p];
             const double linear = c.place.gap + variation(scene, c, moved).first, gap = scene.gap_of(c);
-            EXPECT_EQ(foreseen[p] != 0, linear < 0.0);
+            EXPECT_EQ(foreseen[p].presses, linear < 0.0);
             // Of second order: b^2/(2 R) of relative motions b up to 1.4 size, and b times turns of nodes
             // apart.
             EXPECT_NEAR(gap, linear, 6.0 * size * size);
