@@ -20,6 +20,8 @@ constexpr double sufficient = 1e-4;
 constexpr int most_halvings = 6;
 /// Most looks at which points a step makes touch.
 constexpr int most_looks = 12;
+/// Friction that changes by less has been foreseen [largest force of a node].
+constexpr double same_friction = 1e-3;
 /// Largest motion of a node in an iteration [smallest radius].
 constexpr double longest_step = 0.3;
 /// Energies are not compared closer than this [energy].
@@ -201,9 +203,15 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
             step_.swap(looked_);
         else
             for (std::size_t m = 0; m < step_.size(); ++m) step_[m] += share * (looked_[m] - step_[m]);
-        const bool seen = share == 1.0 && std::ranges::equal(search.touches(), active_);
+        next_active_ = search.touches();
+        bool seen = share == 1.0 && next_active_ == active_;
+        if (seen && friction_.exists() && model_.bound_friction(search.moved()) > same_friction * force_scale_) {
+            seen = false;
+            next_active_ = search.touches();
+        }
         if (seen || look == most_looks) break;
-        active_.assign(search.touches().begin(), search.touches().end());
+        if (next_active_ == active_) continue;
+        active_.swap(next_active_);
         model_.find_stiffness(active_, stiffness_.contact);
     }
     linear_->finish(step_);
@@ -244,6 +252,10 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
         const double begun = omp_get_wtime();
         if (!find_step(q, force, result)) return result;
         threads_.note(omp_get_wtime() - begun);
+        if (friction_.exists()) {
+            friction_.bound(model_.most());
+            energy = evaluate(q, box, force);
+        }
 
         double longest = 0.0, slope = 0.0;
         for (std::size_t m = 0; m < q.size(); ++m) {

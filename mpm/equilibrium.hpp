@@ -102,7 +102,7 @@ class Equilibrium {
     std::vector<Vec2> step_;    ///< towards lower energy
     std::vector<Vec2> pushes_;  ///< of contacts on nodes
     std::vector<Vec2> looked_;  ///< step for touches as foreseen
-    std::vector<Touch> active_;
+    std::vector<Touch> active_, next_active_;
     Trial trial_, farther_;
 };
 

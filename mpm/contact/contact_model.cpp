@@ -108,6 +108,24 @@ Vec2 ContactModel::force(std::size_t p, const Vec2& moved, Touch as) const {
     return press * point.normal - pull * point.tangent;
 }
 
+double ContactModel::bound_friction(std::span<const Vec2> moved) {
+    double change = 0.0;
+    for (std::size_t p = 0; p < point_.size(); ++p) {
+        Point& point = point_[p];
+        const double gap = point.gap + point.normal.dot(moved[p]);
+        const double most = point.slider.coefficient * point.stiffness * std::max(0.0, -gap);
+        change = std::max(change, std::abs(most - point.slider.most));
+        point.slider.most = most;
+    }
+    return change;
+}
+
+std::vector<double> ContactModel::most() const {
+    std::vector<double> values;
+    for (const Point& point : point_) values.push_back(point.slider.most);
+    return values;
+}
+
 void ContactModel::find_active(std::span<const Vec2> d, std::vector<Touch>& active) const {
     active.resize(point_.size());
     for (std::size_t p = 0; p < point_.size(); ++p)

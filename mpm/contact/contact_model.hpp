@@ -43,6 +43,10 @@ class ContactModel {
     double energy(std::span<const Vec2> d) const;
 
     std::size_t points() const { return point_.size(); }
+    /// Friction as the normal forces of points that have moved so allow it. Returns the largest change [N].
+    double bound_friction(std::span<const Vec2> moved);
+    /// Largest friction of the points [N].
+    std::vector<double> most() const;
     /// Motion of a point over the place that it touches, for a step d.
     Vec2 difference(std::size_t point, std::span<const Vec2> d) const;
     Touch touch(std::size_t point, const Vec2& moved) const;

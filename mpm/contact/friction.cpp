@@ -42,9 +42,13 @@ void Friction::lag(const Contacts& contacts) {
     slider_.assign(contact_.size(), {});
     for (std::size_t p = 0; p < contact_.size(); ++p) {
         const PointContact& c = contact_[p];
-        const double most = coefficient(c.j) * c.force();
-        if (most > 0.0) slider_[p] = {most, softness * c.stiffness, force_of_spring(c), 0.0};
+        const double mu = coefficient(c.j);
+        if (mu > 0.0) slider_[p] = {mu * c.force(), softness * c.stiffness, mu, force_of_spring(c), 0.0};
     }
+}
+
+void Friction::bound(std::span<const double> most) {
+    for (std::size_t p = 0; p < slider_.size(); ++p) slider_[p].most = most[p];
 }
 
 /// From the matter of j that is at the contact's place to the point.
@@ -89,7 +93,7 @@ double Friction::end() {
     springs.clear();
     for (std::size_t p = 0; p < slider_.size(); ++p) {
         const Slider& s = slider_[p];
-        if (s.stiffness == 0.0) continue;
+        if (s.most == 0.0) continue;
         const PointContact& c = contact_[p];
         dissipated += s.energy_at(s.trial) - s.energy_at(s.start);
         springs.push_back({c.i, c.point, c.j, s.force(), s.stiffness});

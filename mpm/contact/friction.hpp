@@ -13,7 +13,8 @@ namespace softgrain::mpm {
 /// A surface point that rubs: its force is start + stiffness * slip, at most `most` either way.
 struct Slider {
     double most = 0.0;       ///< friction coefficient times normal force [N]
-    double stiffness = 0.0;  ///< along the surface, 0 of points without normal force [N/m]
+    double stiffness = 0.0;  ///< along the surface, 0: no friction [N/m]
+    double coefficient = 0.0;
     double start = 0.0;      ///< when the step began [N]
     double trial = 0.0;      ///< start + stiffness * slip [N]
 
@@ -37,7 +38,7 @@ struct FrictionSpring {
 /// coefficient times the normal force. Slip is that of the two pieces of matter that now touch, since the
 /// step began, along the tangent where they touch. Normal force, place and tangent are those of the last
 /// lag(): for them friction has an energy (Li et al. 2020, incremental potential contact), and a solution
-/// is found when they no longer change.
+/// is found when they no longer change. bound() puts in normal forces that are foreseen.
 class Friction {
   public:
     /// Coefficients; both 0: no friction, and nothing is done.
@@ -48,6 +49,8 @@ class Friction {
     void begin(const Surfaces& surfaces);
     /// Takes normal forces, places and tangents as they are.
     void lag(const Contacts& contacts);
+    /// Other largest forces than those of the lag [points].
+    void bound(std::span<const double> most);
     /// Energy since begin() [J]; adds its derivative to `force` [all nodes].
     double evaluate(const Surfaces& surfaces, std::span<Vec2> force);
     /// The step of the last evaluate() is made. Returns what sliding has dissipated [J].

@@ -44,9 +44,13 @@ double ModelSearch::approach(std::span<const Vec2> d, std::span<const Touch> as)
             force_[p] += share * (force_there_[p] - force_[p]);
         }
     }
-    touch_.resize(points);
-    for (std::size_t p = 0; p < points; ++p) touch_[p] = model_.touch(p, moved_[p]);
     return share;
+}
+
+std::vector<Touch> ModelSearch::touches() const {
+    std::vector<Touch> touches;
+    for (std::size_t p = 0; p < moved_.size(); ++p) touches.push_back(model_.touch(p, moved_[p]));
+    return touches;
 }
 
 }  // namespace softgrain::mpm

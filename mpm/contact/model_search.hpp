@@ -17,7 +17,9 @@ class ModelSearch {
     /// from where the last call ended, that has the least energy; 1 in the first call.
     double approach(std::span<const Vec2> d, std::span<const Touch> as);
     /// Where it ended.
-    std::span<const Touch> touches() const { return touch_; }
+    std::span<const Vec2> moved() const { return moved_; }
+    /// As points touch there.
+    std::vector<Touch> touches() const;
 
   private:
     double slope(double share) const;
@@ -25,7 +27,6 @@ class ModelSearch {
     const ContactModel& model_;
     std::vector<Vec2> moved_, force_;  ///< [points] where it is; force that balances all but contacts
     std::vector<Vec2> onward_, force_there_;  ///< the same of d
-    std::vector<Touch> touch_;
 };
 
 }  // namespace softgrain::mpm

@@ -30,7 +30,7 @@ struct Problem {
     test::Packing packing;
     Contacts contacts;
     ContactModel model;
-    std::vector<char> active;
+    std::vector<Touch> active;
     Stiffness K;
 
     Problem(int cells, int rows, int columns, unsigned seed)
@@ -54,7 +54,7 @@ struct Problem {
         std::vector<Vec2> unused(packing.q.size());
         contacts.evaluate(surfaces, box, unused);
         model.build(contacts);
-        active.assign(model.points(), 1);
+        active.assign(model.points(), Touch{true});
         model.find_stiffness(active, K.contact);
     }
     const Grains& grains() const { return packing.grains; }
@@ -201,7 +201,7 @@ TEST(LinearSolvers, ContactsMayChangeForTheSameGrains) {
         std::mt19937_64 random(5);
         std::vector<Vec2> last, x(b.size());
         for (int k = 0; k < 4; ++k) {
-            for (char& a : problem.active) a = random() % 2 != 0;
+            for (Touch& a : problem.active) a.presses = random() % 2 != 0;
             problem.model.find_stiffness(problem.active, problem.K.contact);
             problem.K.contact_shift = 0.5 * k + 0.5;
             ASSERT_TRUE(solver->factor_contacts(problem.K));
