@@ -16,9 +16,9 @@
 
 namespace softgrain::mpm {
 
-/// Points that touch and part in steps near the limit give a grain energy. Measured as a share of what ten
-/// bounces between walls move, without damping: with penalty 200 5 % at safety 0.8, 0.2 % at 0.5 and 0.06 %
-/// at 0.4; with penalty 20 0.2 % at 0.8.
+/// Points that touch and part in steps near the limit give grains energy, more or less by chance: of the work
+/// of walls in ten bounces without damping 1 to 6 % with penalty 200 at safety 0.8 and up to 0.4 % at 0.4 or
+/// 0.5; up to 0.5 % with penalty 20 at 0.8 and 0.04 % at 0.4.
 struct ExplicitSettings {
     double penalty = 200.0;       ///< contact stiffness [modulus / grid spacing]
     double damping = 0.0;         ///< force / momentum of every material point [1/s]

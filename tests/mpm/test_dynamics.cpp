@@ -120,7 +120,9 @@ TEST(ExplicitMotion, FreeFall) {
 }
 
 TEST(ExplicitMotion, ObliqueCollisionKeepsMomentumAndAngularMomentum) {
-    Scene scene(two_discs(4), {{-0.46, 0.1}, {0.46, -0.15}});
+    ExplicitSettings settings;
+    settings.penalty = 20.0;
+    Scene scene(two_discs(4), {{-0.46, 0.1}, {0.46, -0.15}}, settings);
     scene.set_velocity(0, {0.1, 0.03}, 0.2);
     scene.set_velocity(1, {-0.15, 0.0}, -0.1);
     const Vec2 momentum = scene.momentum();
@@ -128,7 +130,7 @@ TEST(ExplicitMotion, ObliqueCollisionKeepsMomentumAndAngularMomentum) {
     const Vec2 before = scene.velocity(0);
     const double dt = 0.5 * scene.motion->stable_time_step();
     bool touched = false;
-    for (int k = 0; k < 5000; ++k) {
+    for (int k = 0; k < 1800; ++k) {
         scene.step(dt);
         touched = touched || scene.motion->contacts().energy() > 0.0;
     }
@@ -137,7 +139,7 @@ TEST(ExplicitMotion, ObliqueCollisionKeepsMomentumAndAngularMomentum) {
     EXPECT_GT((scene.velocity(0) - before).norm(), 0.1);
     EXPECT_LT((scene.momentum() - momentum).norm(), 1e-13);
     EXPECT_NEAR(scene.angular_momentum(), angular, 1e-13);
-    EXPECT_NEAR(scene.total_energy(), energy, 1e-3 * energy);
+    EXPECT_NEAR(scene.total_energy(), energy, 5e-4 * energy);
 }
 
 /// A disc that breathes with small amplitude; its field, and the angular frequency in closed form.
@@ -222,6 +224,7 @@ TEST(ExplicitMotion, TheLedgerClosesForAGrainThatBouncesBetweenMovingWalls) {
         ExplicitSettings settings;
         settings.gravity = {0.0, -0.05};
         settings.damping = damping;
+        settings.penalty = 20.0;
         settings.safety = 0.4;
         Scene scene(one_disc(4, 0.5, material), {{0.0, 0.0}}, settings);
         scene.between({{-0.6, 0.6, -0.55, 0.55}});
@@ -235,7 +238,8 @@ TEST(ExplicitMotion, TheLedgerClosesForAGrainThatBouncesBetweenMovingWalls) {
         const EnergyLedger e = scene.motion->energy(scene.v);
         const double off = e.kinetic + e.elastic + e.plastic + e.damping - e.external_work - start;
         EXPECT_GT(e.external_work, 1e-3);
-        EXPECT_LT(std::abs(off), 2e-3 * e.external_work);
+        // Measured: 4e-4.
+        EXPECT_LT(std::abs(off), 1e-3 * e.external_work);
         EXPECT_EQ(e.plastic > 0.0, material.yield_stress.has_value());
         EXPECT_EQ(e.damping > 0.0, damping > 0.0);
     }
