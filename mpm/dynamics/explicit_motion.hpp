@@ -35,6 +35,8 @@ struct ExplicitSettings {
 class ExplicitMotion {
   public:
     ExplicitMotion(Grains& grains, const ExplicitSettings& settings);
+    ExplicitMotion(const ExplicitMotion&) = delete;
+    ExplicitMotion& operator=(const ExplicitMotion&) = delete;
 
     /// Starts at a state: forces, contacts and the stable time step become those of q, plastic and the box.
     /// Energies go on from `so_far`; only what is counted up is taken. q [all nodes].

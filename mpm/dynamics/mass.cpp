@@ -1,6 +1,7 @@
 #include "mpm/dynamics/mass.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <stdexcept>
 
 namespace softgrain::mpm {
