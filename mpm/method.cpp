@@ -23,13 +23,15 @@ std::vector<KeyFault> faults_of(const Settings& settings) {
     std::vector<KeyFault> faults;
     if (settings.integer("points_across_radius") % points_per_cell != 0)
         faults.push_back({"points_across_radius", "must be even: a grid cell has 2 x 2 points"});
+    if (settings.text("contact") == "common_grid" && settings.text("driver") != "explicit")
+        faults.push_back({"contact", "= \"common_grid\" needs driver = \"explicit\""});
     if (settings.boolean("mean_dilatation") && law_named(settings.text("law")) != LawKind::neo_hookean)
         faults.push_back({"mean_dilatation", "is for law = \"neo_hookean\"; leave it out"});
     return faults;
 }
 
 std::span<const KeySpec> keys() {
-    static const std::array<KeySpec, 9> table{{
+    static const std::array<KeySpec, 12> table{{
         {"law",
          KeyType::text,
          std::string("neo_hookean"),
@@ -43,9 +45,18 @@ std::span<const KeySpec> keys() {
          KeyType::text,
          std::string("quasi_static"),
          "",
-         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for friction",
+         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for friction; "
+         "\"explicit\" is dynamics by leap-frog",
          any_number,
-         {"quasi_static", "implicit"}},
+         {"quasi_static", "implicit", "explicit"}},
+        {"contact",
+         KeyType::text,
+         std::string("surface"),
+         "",
+         "\"common_grid\" is contact at the nodes of a grid that grains share, which keeps them apart by a "
+         "cell; for comparison only, with driver = \"explicit\"",
+         any_number,
+         {"surface", "common_grid"}},
         {"points_across_radius",
          KeyType::integer,
          std::int64_t{16},
@@ -56,10 +67,11 @@ std::span<const KeySpec> keys() {
          "take the pressure at the mean dilatation of each grid cell: for nu above 0.495"},
         {"penalty",
          KeyType::number,
-         200.0,
+         0.0,
          "E/(1 - nu^2) / grid spacing",
-         "stiffness of contact: surfaces overlap by pressure / stiffness",
-         {1.0, 1e5}},
+         "stiffness of contact: surfaces overlap by pressure / stiffness; 0: 200, or 20 if driver = "
+         "\"explicit\"",
+         {0.0, 1e5}},
         {"tolerance",
          KeyType::number,
          1e-5,
@@ -84,6 +96,18 @@ std::span<const KeySpec> keys() {
          "radius of the smallest grain / sqrt(E/rho)",
          "largest step of implicit dynamics",
          {1e-3, 1e6}},
+        {"safety",
+         KeyType::number,
+         0.8,
+         "",
+         "time step of explicit dynamics / largest stable one",
+         {1e-3, 1.0}},
+        {"damping",
+         KeyType::number,
+         0.5,
+         "sqrt(E/rho) / radius of the smallest grain",
+         "damping of what grains move beside their rigid motion, in explicit dynamics",
+         not_negative},
     }};
     return table;
 }
@@ -115,13 +139,21 @@ MpmSettings settings_of(const Scenario& scenario) {
     MpmSettings s;
     s.law = law_named(settings.text("law"));
     s.cells = static_cast<int>(settings.integer("points_across_radius")) / points_per_cell;
-    s.driver = settings.text("driver") == "implicit" ? Driver::implicit : Driver::quasi_static;
+    const std::string driver = settings.text("driver");
+    s.driver = driver == "explicit"   ? Driver::explicit_steps
+               : driver == "implicit" ? Driver::implicit
+                                      : Driver::quasi_static;
     s.strain_step = settings.number("strain_step");
     s.time_step = settings.number("time_step");
     s.equilibrium.tolerance = settings.number("tolerance");
     s.equilibrium.most_iterations = static_cast<int>(settings.integer("max_iterations"));
-    s.equilibrium.penalty = settings.number("penalty");
-    s.equilibrium.mean_dilatation = settings.boolean("mean_dilatation");
+    const double penalty = settings.number("penalty");
+    s.equilibrium.penalty = penalty > 0.0 ? penalty : 200.0;
+    s.motion.penalty = penalty > 0.0 ? penalty : 20.0;
+    s.equilibrium.mean_dilatation = s.motion.mean_dilatation = settings.boolean("mean_dilatation");
+    s.motion.safety = settings.number("safety");
+    s.motion.damping = settings.number("damping");
+    if (settings.text("contact") == "common_grid") s.motion.common_grid.emplace();
     return s;
 }
 

@@ -28,20 +28,31 @@ Box between(const Box& from, const Box& to, double share) {
 MpmSolver::MpmSolver(const Scenario& scenario, const Packing& packing)
     : settings_(settings_of(scenario)), box_(packing.box) {
     if (packing.size() == 0) throw InputError("mpm: the packing has no grains");
-    settings_.equilibrium.gravity = scenario.box.gravity;
-    settings_.equilibrium.friction = scenario.material.friction;
-    settings_.equilibrium.wall_friction = scenario.material.wall_friction;
+    const Material& material = scenario.material;
+    EquilibriumSettings& implicit = settings_.equilibrium;
+    ExplicitSettings& motion = settings_.motion;
+    implicit.gravity = motion.gravity = scenario.box.gravity;
+    implicit.friction = motion.friction = material.friction;
+    implicit.wall_friction = motion.wall_friction = material.wall_friction;
+    if (motion.common_grid) {
+        motion.common_grid->friction = material.friction;
+        motion.common_grid->wall_friction = material.wall_friction;
+    }
     make_grains(scenario, packing);
-    forces_ =
-        std::make_unique<GrainForces>(*grains_.disc, *grains_.pattern, settings_.equilibrium.mean_dilatation);
-    equilibrium_ =
-        std::make_unique<Equilibrium>(grains_, settings_.equilibrium, std::make_unique<FrontSolver>(grains_));
-    if (std::ranges::any_of(grains_.law, [](const auto& law) { return law->remembers(); }))
-        equilibrium_->plastic.resize(grains_.size() * grains_.points());
+    motion.damping /= crossing_;
+    forces_ = std::make_unique<GrainForces>(*grains_.disc, *grains_.pattern, implicit.mean_dilatation);
+    if (settings_.driver == Driver::explicit_steps) {
+        motion_ = std::make_unique<ExplicitMotion>(grains_, motion);
+        motion_->begin(q_, box_);
+    } else {
+        equilibrium_ = std::make_unique<Equilibrium>(grains_, implicit, std::make_unique<FrontSolver>(grains_));
+        if (std::ranges::any_of(grains_.law, [](const auto& law) { return law->remembers(); }))
+            equilibrium_->plastic.resize(grains_.size() * grains_.points());
+    }
     force_.resize(q_.size());
     placed_ = packing.center;
     evaluate();
-    wall_force_ = equilibrium_->wall_force();
+    wall_force_ = motion_ ? motion_->wall_force() : equilibrium_->wall_force();
     velocity_.assign(grains_.size(), Vec2::Zero());
     find_centroids();
     find_energy();
@@ -87,13 +98,45 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
         }
 }
 
+std::span<const PlasticState> MpmSolver::plastic_of(std::size_t g) const {
+    if (plastic().empty()) return {};
+    return {plastic().data() + g * grains_.points(), grains_.points()};
+}
+
 void MpmSolver::advance(const WallMotion& walls, double dt) {
-    const std::vector<Vec2> before = centroid_;
     box_ = walls.box;
-    const Box end = walls.after(dt);
-    check_room(end, dt);
+    check_room(walls.after(dt), dt);
     strain_rate_ =
         std::max(std::abs(walls.width_rate()) / box_.width(), std::abs(walls.height_rate()) / box_.height());
+    if (motion_)
+        advance_explicitly(walls, dt);
+    else
+        advance_implicitly(walls, dt);
+}
+
+void MpmSolver::advance_explicitly(const WallMotion& walls, double dt) {
+    const double steps = std::max(1.0, std::ceil(dt / motion_->stable_time_step() * (1.0 - 1e-9)));
+    const Box end = walls.after(dt);
+    for (double k = 1.0; k <= steps; ++k) {
+        const int inside_out =
+            motion_->step(q_, v_, k == steps ? end : between(walls.box, end, k / steps), dt / steps);
+        if (inside_out >= 0)
+            throw DivergedError(inside_out, "deformation", time_ + k / steps * dt,
+                                "the grain is inside out; start from a packing without deep overlaps, or set "
+                                "mpm.penalty or mpm.safety lower");
+    }
+    time_ += dt;
+    box_ = end;
+    wall_force_ = motion_->wall_force();
+    find_centroids();
+    for (std::size_t g = 0; g < grains_.size(); ++g)
+        velocity_[g] = motion_->mass().momentum(grains_.of(v_, g)) / std::numbers::pi;
+    energy_ = motion_->energy(v_);
+}
+
+void MpmSolver::advance_implicitly(const WallMotion& walls, double dt) {
+    const std::vector<Vec2> before = centroid_;
+    const Box end = walls.after(dt);
     double parts = strain_rate_ * dt / settings_.strain_step;
     if (settings_.driver == Driver::implicit)
         parts = std::max(parts, dt / (settings_.time_step * crossing_));
@@ -134,6 +177,7 @@ void MpmSolver::check_room(const Box& box, double dt) const {
 }
 
 double MpmSolver::stable_time_step() const {
+    if (motion_) return motion_->stable_time_step();
     double dt = settings_.driver == Driver::implicit ? settings_.time_step * crossing_
                                                      : std::numeric_limits<double>::infinity();
     if (strain_rate_ > 0.0) dt = std::min(dt, settings_.strain_step / strain_rate_);
@@ -181,6 +225,10 @@ bool MpmSolver::move_walls(const Box& to, double dt, EquilibriumResult& result) 
 }
 
 void MpmSolver::find_energy() {
+    if (motion_) {
+        energy_ = motion_->energy(v_);
+        return;
+    }
     energy_.elastic = equilibrium_->plastic.empty() ? equilibrium_->elastic_energy() : stored_energy();
     energy_.elastic += equilibrium_->friction().stored();
     energy_.plastic = dissipated_by_flow();
@@ -215,7 +263,7 @@ void MpmSolver::flow() {
 
 /// Energy, forces and contacts of the state as it is.
 void MpmSolver::evaluate() {
-    equilibrium_->begin_slip(q_, box_, force_);
+    if (equilibrium_) equilibrium_->begin_slip(q_, box_, force_);
 }
 
 }  // namespace softgrain::mpm

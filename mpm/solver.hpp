@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "common/solver.hpp"
+#include "mpm/dynamics/explicit_motion.hpp"
 #include "mpm/equilibrium.hpp"
 #include "mpm/grains.hpp"
 
 namespace softgrain::mpm {
 
-enum class Driver { quasi_static, implicit };
+enum class Driver { quasi_static, implicit, explicit_steps };
 
 /// Values of the scenario table [mpm]; see mpm/method.cpp for units and defaults.
 struct MpmSettings {
@@ -21,13 +22,14 @@ struct MpmSettings {
     double strain_step;  ///< largest strain of the box in a step of the implicit drivers
     double time_step;    ///< largest of implicit dynamics [radius of the smallest grain / sqrt(E/rho)]
     EquilibriumSettings equilibrium;
+    ExplicitSettings motion;
 };
 
 /// Reads the table [mpm] of a scenario, defaults where there is none.
 MpmSettings settings_of(const Scenario& scenario);
 
 /// quasi_static: time is only what the walls move by; each step ends in equilibrium. implicit: Euler's implicit
-/// method, which is equilibrium with inertia. Both in as many smaller steps as it takes.
+/// method, which is equilibrium with inertia. Both in as many smaller steps as it takes. explicit: leap-frog.
 class MpmSolver final : public Solver {
   public:
     /// Throws InputError if the packing has no grains, DivergedError if its overlaps cannot be resolved.
@@ -46,12 +48,18 @@ class MpmSolver final : public Solver {
 
     const Grains& grains() const { return grains_; }
     std::span<const Vec2> nodes() const { return q_; }
-    const Equilibrium& equilibrium() const { return *equilibrium_; }
     /// Of Newton's method, since the start.
     long long iterations() const { return iterations_; }
 
   private:
     void make_grains(const Scenario& scenario, const Packing& packing);
+    void advance_explicitly(const WallMotion& walls, double dt);
+    void advance_implicitly(const WallMotion& walls, double dt);
+    const Contacts& contacts() const { return motion_ ? motion_->contacts() : equilibrium_->contacts(); }
+    const Surfaces& surfaces() const { return motion_ ? motion_->surfaces() : equilibrium_->surfaces(); }
+    const Friction& friction() const { return motion_ ? motion_->friction() : equilibrium_->friction(); }
+    std::vector<PlasticState>& plastic() const { return motion_ ? motion_->plastic : equilibrium_->plastic; }
+    std::span<const PlasticState> plastic_of(std::size_t g) const;
     /// From the box as it is to another, in dt. False, and nothing has changed, if no equilibrium was found.
     bool move_walls(const Box& to, double dt, EquilibriumResult& result);
     /// Throws DivergedError if the grains could not be in it.
@@ -71,7 +79,8 @@ class MpmSolver final : public Solver {
 
     MpmSettings settings_;
     Grains grains_;
-    std::unique_ptr<Equilibrium> equilibrium_;
+    std::unique_ptr<Equilibrium> equilibrium_;  ///< of the implicit drivers
+    std::unique_ptr<ExplicitMotion> motion_;    ///< of the explicit one
     std::unique_ptr<GrainForces> forces_;  ///< for views
     std::vector<Vec2> q_;                  ///< [grains * nodes] coefficients of positions [m]
     std::vector<Vec2> v_;                  ///< and of velocities; zero without dynamics [m/s]

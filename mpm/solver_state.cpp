@@ -29,27 +29,22 @@ void MpmSolver::save(Checkpoint& to) const {
     to.put("mpm.wall_force", std::span<const Vec2>(wall_force_));
     const std::array scalars{
         time_,        energy_.external_work, iterations_of_step_, static_cast<double>(iterations_),
-        strain_rate_, energy_.damping,        energy_.friction};
+        strain_rate_, energy_.damping, energy_.friction};
     to.put("mpm.scalars", std::span<const double>(scalars));
     std::vector<double> plastic;
-    for (const PlasticState& s : equilibrium_->plastic)
+    for (const PlasticState& s : this->plastic())
         plastic.insert(plastic.end(),
                        {s.inverse_xx, s.inverse_xy, s.inverse_yy, s.inverse_zz, s.equivalent, s.dissipated});
     to.put("mpm.plastic", std::span<const double>(plastic));
-    std::vector<int> rubs;
-    std::vector<double> pulls;
-    for (const FrictionSpring& s : equilibrium_->friction().springs) {
-        rubs.insert(rubs.end(), {s.i, s.point, s.j});
-        pulls.insert(pulls.end(), {s.force, s.stiffness});
-    }
-    to.put("mpm.friction.points", std::span<const int>(rubs));
-    to.put("mpm.friction.springs", std::span<const double>(pulls));
+    if (motion_)
+        motion_->save(to);
+    else
+        friction().save(to);
 }
 
 void MpmSolver::load(const Checkpoint& from) {
     std::vector<Vec2> q, v, velocity, wall_force;
-    std::vector<double> box, scalars, plastic, pulls;
-    std::vector<int> rubs;
+    std::vector<double> box, scalars, plastic;
     from.get("mpm.q", q);
     from.get("mpm.v", v);
     from.get("mpm.velocity", velocity);
@@ -57,12 +52,9 @@ void MpmSolver::load(const Checkpoint& from) {
     from.get("mpm.wall_force", wall_force);
     from.get("mpm.scalars", scalars);
     from.get("mpm.plastic", plastic);
-    from.get("mpm.friction.points", rubs);
-    from.get("mpm.friction.springs", pulls);
     if (q.size() != q_.size() || v.size() != q_.size() || velocity.size() != grains_.size() || box.size() != 4 ||
         wall_force.size() != 4 || scalars.size() != 7 ||
-        plastic.size() != numbers_of_a_state * equilibrium_->plastic.size() ||
-        2 * rubs.size() != 3 * pulls.size())
+        plastic.size() != numbers_of_a_state * this->plastic().size())
         throw InputError(
             "checkpoint: its grains are not those of this scenario; use the same scenario, packing and "
             "[mpm]");
@@ -78,15 +70,15 @@ void MpmSolver::load(const Checkpoint& from) {
     strain_rate_ = scalars[4];
     energy_.damping = scalars[5];
     energy_.friction = scalars[6];
-    std::vector<FrictionSpring>& springs = equilibrium_->friction().springs;
-    springs.resize(pulls.size() / 2);
-    for (std::size_t k = 0; k < springs.size(); ++k)
-        springs[k] = {rubs[3 * k], rubs[3 * k + 1], rubs[3 * k + 2], pulls[2 * k], pulls[2 * k + 1]};
-    for (std::size_t k = 0; k < equilibrium_->plastic.size(); ++k) {
+    for (std::size_t k = 0; k < this->plastic().size(); ++k) {
         const double* s = plastic.data() + numbers_of_a_state * k;
-        equilibrium_->plastic[k] = {s[0], s[1], s[2], s[3], s[4], s[5]};
+        this->plastic()[k] = {s[0], s[1], s[2], s[3], s[4], s[5]};
     }
     find_centroids();
+    if (motion_)
+        motion_->load(from, q_);
+    else
+        equilibrium_->friction().load(from);
     evaluate();
     find_energy();
 }

@@ -39,20 +39,24 @@ GrainView MpmSolver::view(Need need) {
     view.reference_area = reference_area_;
     view.wall_force = wall_force_;
     view.energy = energy_;
-    view.energy.external_work += work_of_gravity();
-    view.contact_report.penetration = deepest_overlap(equilibrium_->contacts());
-    view.contact_report.sweeps = iterations_of_step_;
-    view.contact_report.unconverged_steps = 0.0;
+    if (!motion_) view.energy.external_work += work_of_gravity();
+    view.contact_report.penetration = deepest_overlap(contacts());
+    if (equilibrium_) {
+        view.contact_report.sweeps = iterations_of_step_;
+        view.contact_report.unconverged_steps = 0.0;
+    }
     if (wants(need, Need::area) || wants(need, Need::stress)) {
         area_.resize(grains_.size());
         for (std::size_t g = 0; g < grains_.size(); ++g)
-            area_[g] = area_inside(equilibrium_->surfaces().controls_of(grains_, g));
+            area_[g] = area_inside(surfaces().controls_of(grains_, g));
         view.area = area_;
         view.covered_area = covered_area();
     }
     if (wants(need, Need::contacts)) {
-        contact_ = sum_grain_contacts(grains_, equilibrium_->surfaces(), equilibrium_->contacts(),
-                                      equilibrium_->friction().sliders());
+        contact_ = motion_ && motion_->common_grid()
+                       ? motion_->common_grid()->grain_contacts()
+                       : sum_grain_contacts(grains_, surfaces(), contacts(),
+                                      friction().sliders());
         view.contacts = contact_;
     }
     if (wants(need, Need::stress)) {
@@ -64,7 +68,7 @@ GrainView MpmSolver::view(Need need) {
         view.outline_offset = outline_offset_;
         view.outline_point = outline_point_;
     }
-    if (wants(need, Need::fields)) {
+    if (wants(need, Need::fields) && equilibrium_) {
         residual_of_grain_.assign(grains_.size(), 0.0);
         for (std::size_t k = 0; k < force_.size(); ++k) {
             double& largest = residual_of_grain_[k / grains_.nodes()];
@@ -87,7 +91,7 @@ double MpmSolver::work_of_gravity() const {
 double MpmSolver::covered_area() const {
     double sum = 0.0;
     for (const double a : area_) sum += a;
-    return sum - overlap_area(equilibrium_->surfaces(), equilibrium_->contacts(), grains_);
+    return sum - overlap_area(surfaces(), contacts(), grains_);
 }
 
 /// (1/a) integral of P F^T over the undeformed grain, compression positive.
@@ -96,7 +100,7 @@ void MpmSolver::view_stress() {
     std::vector<Vec2> unused(grains_.nodes(), Vec2::Zero());
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
-        forces_->evaluate(grain, grains_.of(q_, g), equilibrium_->plastic_of(g), unused, {});
+        forces_->evaluate(grain, grains_.of(q_, g), plastic_of(g), unused, {});
         for (std::size_t p = 0; p < grains_.points(); ++p) {
             const Vec4& P = forces_->stress()[p];
             const Mat2 stress = (Mat2() << P[0], P[1], P[2], P[3]).finished();
@@ -111,7 +115,7 @@ void MpmSolver::view_outlines() {
     outline_offset_.assign(1, 0);
     outline_point_.clear();
     for (std::size_t g = 0; g < grains_.size(); ++g) {
-        const auto control = equilibrium_->surfaces().controls_of(grains_, g);
+        const auto control = surfaces().controls_of(grains_, g);
         for (std::size_t k = 0; k < control.size(); ++k)
             outline_point_.emplace_back(0.5 * (control[k] + control[(k + 1) % control.size()]));
         outline_offset_.push_back(static_cast<int>(outline_point_.size()));
@@ -128,7 +132,7 @@ void MpmSolver::view_parts(GrainView& view) {
     std::vector<Vec2> unused(grains_.nodes(), Vec2::Zero());
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
-        forces_->evaluate(grain, grains_.of(q_, g), equilibrium_->plastic_of(g), unused, {});
+        forces_->evaluate(grain, grains_.of(q_, g), plastic_of(g), unused, {});
         for (std::size_t p = 0; p < points; ++p) {
             const std::size_t k = g * points + p;
             part_position_[k] = grains_.disc->at_points.at(p, grains_.of(q_, g));
@@ -143,7 +147,7 @@ void MpmSolver::view_parts(GrainView& view) {
                 1.5 * ((cauchy - mean * Mat2::Identity()).squaredNorm() + (zz - mean) * (zz - mean)));
             for (int c = 0; c < 4; ++c)
                 part_deformation_[4 * k + static_cast<std::size_t>(c)] = F(c / 2, c % 2);
-            if (!equilibrium_->plastic.empty()) plastic_strain_[k] = equilibrium_->plastic[k].equivalent;
+            if (!plastic().empty()) plastic_strain_[k] = plastic()[k].equivalent;
         }
     }
     view.parts.position = part_position_;
@@ -153,17 +157,17 @@ void MpmSolver::view_parts(GrainView& view) {
     view.parts.fields = {{"von_mises_stress", "N/m", 1, von_mises_},
                          {"pressure", "N/m", 1, pressure_},
                          {"F", "1", 4, part_deformation_}};
-    if (!equilibrium_->plastic.empty())
+    if (!plastic().empty())
         view.parts.fields.push_back({"plastic_strain", "1", 1, plastic_strain_});
 }
 
 /// Of grains that remember: without what flow has dissipated.
 double MpmSolver::stored_energy() {
-    double sum = equilibrium_->contacts().energy();
+    double sum = contacts().energy();
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
         const auto F = forces_->deformation(grain, grains_.of(q_, g));
-        const auto state = equilibrium_->plastic_of(g);
+        const auto state = plastic_of(g);
         sum += forces_->volumetric_energy(grain);
         for (std::size_t p = 0; p < F.size(); ++p)
             sum += grains_.disc->weight[p] * grain.area * grain.law->stored(F[p], state[p]);
@@ -173,9 +177,9 @@ double MpmSolver::stored_energy() {
 
 double MpmSolver::dissipated_by_flow() const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < equilibrium_->plastic.size(); ++k)
+    for (std::size_t k = 0; k < plastic().size(); ++k)
         sum += grains_.disc->weight[k % grains_.points()] * grains_.grain[k / grains_.points()].area *
-               equilibrium_->plastic[k].dissipated;
+               plastic()[k].dissipated;
     return sum;
 }
 

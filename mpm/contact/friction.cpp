@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/errors.hpp"
 #include "mpm/contact/spread.hpp"
 #include "mpm/disc/quadratic_spline.hpp"
 
@@ -28,11 +29,11 @@ void Friction::begin(const Surfaces& surfaces) {
 }
 
 double Friction::force_of_spring(const PointContact& c) const {
-    const auto at = std::lower_bound(springs.begin(), springs.end(), key(c.i, c.point, c.j),
+    const auto at = std::lower_bound(springs_.begin(), springs_.end(), key(c.i, c.point, c.j),
                                      [](const FrictionSpring& s, const auto& wanted) {
                                          return key(s.i, s.point, s.j) < wanted;
                                      });
-    const bool found = at != springs.end() && key(at->i, at->point, at->j) == key(c.i, c.point, c.j);
+    const bool found = at != springs_.end() && key(at->i, at->point, at->j) == key(c.i, c.point, c.j);
     return found ? at->force : 0.0;
 }
 
@@ -83,25 +84,48 @@ double Friction::evaluate(const Surfaces& surfaces, std::span<Vec2> force) {
 
 double Friction::stored() const {
     double sum = 0.0;
-    for (const FrictionSpring& s : springs) sum += 0.5 * s.force * s.force / s.stiffness;
+    for (const FrictionSpring& s : springs_) sum += 0.5 * s.force * s.force / s.stiffness;
     return sum;
 }
 
 double Friction::end() {
     if (!exists()) return 0.0;
     double dissipated = stored();
-    springs.clear();
+    springs_.clear();
     for (std::size_t p = 0; p < slider_.size(); ++p) {
         const Slider& s = slider_[p];
         if (s.most == 0.0) continue;
         const PointContact& c = contact_[p];
         dissipated += s.energy_at(s.trial) - s.energy_at(s.start);
-        springs.push_back({c.i, c.point, c.j, s.force(), s.stiffness});
+        springs_.push_back({c.i, c.point, c.j, s.force(), s.stiffness});
     }
-    std::sort(springs.begin(), springs.end(), [](const FrictionSpring& a, const FrictionSpring& b) {
+    std::sort(springs_.begin(), springs_.end(), [](const FrictionSpring& a, const FrictionSpring& b) {
         return key(a.i, a.point, a.j) < key(b.i, b.point, b.j);
     });
     return dissipated - stored();
+}
+
+void Friction::save(Checkpoint& to) const {
+    std::vector<int> place;
+    std::vector<double> value;
+    for (const FrictionSpring& s : springs_) {
+        place.insert(place.end(), {s.i, s.point, s.j});
+        value.insert(value.end(), {s.force, s.stiffness});
+    }
+    to.put("mpm.friction.place", std::span<const int>(place));
+    to.put("mpm.friction.spring", std::span<const double>(value));
+}
+
+void Friction::load(const Checkpoint& from) {
+    std::vector<int> place;
+    std::vector<double> value;
+    from.get("mpm.friction.place", place);
+    from.get("mpm.friction.spring", value);
+    if (2 * place.size() != 3 * value.size())
+        throw InputError("checkpoint: springs of friction without their places; it is broken");
+    springs_.clear();
+    for (std::size_t k = 0; 2 * k < value.size(); ++k)
+        springs_.push_back({place[3 * k], place[3 * k + 1], place[3 * k + 2], value[2 * k], value[2 * k + 1]});
 }
 
 }  // namespace softgrain::mpm

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/checkpoint.hpp"
 #include "mpm/contact/contacts.hpp"
 
 namespace softgrain::mpm {
@@ -63,8 +64,9 @@ class Friction {
     /// In springs, since the last end() [J].
     double stored() const;
 
-    /// Sorted by (i, point, j).
-    std::vector<FrictionSpring> springs;
+    void save(Checkpoint& to) const;
+    /// Throws InputError if what was saved is broken.
+    void load(const Checkpoint& from);
 
   private:
     double coefficient(int j) const { return j < 0 ? at_walls_ : between_grains_; }
@@ -77,6 +79,7 @@ class Friction {
     std::vector<PointContact> contact_;  ///< of the last lag()
     std::vector<Slider> slider_;
     std::array<Vec2, 4> wall_force_;
+    std::vector<FrictionSpring> springs_;  ///< sorted by (i, point, j)
 };
 
 }  // namespace softgrain::mpm

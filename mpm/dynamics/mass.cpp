@@ -1,6 +1,7 @@
 #include "mpm/dynamics/mass.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <stdexcept>
 
 namespace softgrain::mpm {
@@ -116,6 +117,15 @@ double Mass::angular_momentum(std::span<const Vec2> q, std::span<const Vec2> v) 
     double sum = 0.0;
     for (std::size_t m = 0; m < v.size(); ++m) sum += cross(q[m], momentum[m]);
     return sum;
+}
+
+RigidMotion Mass::rigid_motion(std::span<const Vec2> q, std::span<const Vec2> v) const {
+    double area = 0.0;
+    for (const double m : disc_.integral) area += m;
+    const Vec2 center = momentum(q) / area, velocity = momentum(v) / area;
+    std::vector<Vec2> arm(q.size());
+    for (std::size_t m = 0; m < q.size(); ++m) arm[m] = q[m] - center;
+    return {center, velocity, angular_momentum(arm, v) / squared(arm)};
 }
 
 }  // namespace softgrain::mpm

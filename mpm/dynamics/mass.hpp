@@ -8,6 +8,13 @@
 
 namespace softgrain::mpm {
 
+struct RigidMotion {
+    Vec2 center, velocity;  ///< [m], [m/s]
+    double spin;            ///< [1/s]
+
+    Vec2 at(const Vec2& x) const { return velocity + spin * perpendicular(x - center); }
+};
+
 /// m_ij = integral of N_i N_j over the unit disc, by the weights of the material points; that of a grain is
 /// density * area [kg] times it. Row sums would not do: those of extrapolated splines may be negative.
 class Mass {
@@ -24,6 +31,8 @@ class Mass {
     Vec2 momentum(std::span<const Vec2> v) const;
     /// Integral of x cross v, about the origin.
     double angular_momentum(std::span<const Vec2> q, std::span<const Vec2> v) const;
+    /// With the momentum and the angular momentum of v. q, v [nodes].
+    RigidMotion rigid_motion(std::span<const Vec2> q, std::span<const Vec2> v) const;
     /// m_ij in each place of the pattern.
     const std::vector<double>& in_pattern() const { return value_; }
 

