@@ -62,7 +62,8 @@ double Contacts::stiffness_per_length(const Grain& a, const Grain& b) const {
     return 2.0 * penalty_ / (h * (a.radius / a.modulus + b.radius / b.modulus));
 }
 
-void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length) {
+void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length,
+                           std::vector<PointContact>& out) const {
     const auto points = surfaces.points_of(grains_, i);
     const auto controls = surfaces.controls_of(grains_, j);
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -72,12 +73,13 @@ void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t 
             continue;
         const CurvePlace place = closest_place(controls, x);
         if (place.gap >= near_gap_) continue;
-        points_.push_back({static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
-                           length * stiffness_per_length(grains_.grain[i], grains_.grain[j])});
+        out.push_back({static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
+                       length * stiffness_per_length(grains_.grain[i], grains_.grain[j])});
     }
 }
 
-void Contacts::find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall) {
+void Contacts::find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall,
+                                std::vector<PointContact>& out) const {
     const Grain& grain = grains_.grain[i];
     const auto points = surfaces.points_of(grains_, i);
     const double length = grains_.disc->surface_weight() * grain.radius;
@@ -88,41 +90,55 @@ void Contacts::find_wall_points(const Surfaces& surfaces, const Box& box, std::s
         place.gap = gap;
         place.normal = wall_normal(wall);
         place.tangent = perpendicular(place.normal);
-        points_.push_back({static_cast<int>(i), static_cast<int>(k), -1 - wall, place,
-                           length * stiffness_per_length(grain, grain)});
+        out.push_back({static_cast<int>(i), static_cast<int>(k), -1 - wall, place,
+                       length * stiffness_per_length(grain, grain)});
     }
 }
 
-double Contacts::evaluate(const Surfaces& surfaces, const Box& box, std::span<Vec2> force) {
-    watch(surfaces);
-    points_.clear();
-    groups_.clear();
-    wall_force_.fill(Vec2::Zero());
-    const auto close_group = [&](int i, int j, std::size_t first) {
-        if (points_.size() > first)
-            groups_.push_back({i, j, static_cast<int>(first), static_cast<int>(points_.size() - first)});
-    };
+/// Grains and walls that are near each other.
+void Contacts::find_near(const Box& box) {
+    near_.clear();
     std::size_t pair = 0;
     for (std::size_t i = 0; i < grains_.size(); ++i) {
-        for (int wall = 3; wall >= 0 && !box.periodic; --wall) {
-            const std::size_t first = points_.size();
+        for (int wall = 3; wall >= 0 && !box.periodic; --wall)
             if (box.distance(wall, wall_sign(wall) > 0.0 ? low_[i] : high_[i]) < near_gap_)
-                find_wall_points(surfaces, box, i, wall);
-            close_group(static_cast<int>(i), -1 - wall, first);
-        }
+                near_.push_back({static_cast<int>(i), -1 - wall});
         for (; pair < pairs_.pairs().size() && pairs_.pairs()[pair].i == static_cast<int>(i); ++pair) {
             const auto j = static_cast<std::size_t>(pairs_.pairs()[pair].j);
             if ((low_[i].array() > high_[j].array() + near_gap_).any() ||
                 (low_[j].array() > high_[i].array() + near_gap_).any())
                 continue;
-            const std::size_t first = points_.size();
-            const double half = 0.5 * grains_.disc->surface_weight();
-            find_points(surfaces, i, j, half * grains_.grain[i].radius);
-            find_points(surfaces, j, i, half * grains_.grain[j].radius);
-            close_group(static_cast<int>(i), static_cast<int>(j), first);
+            near_.push_back({static_cast<int>(i), static_cast<int>(j)});
         }
     }
+}
 
+double Contacts::evaluate(const Surfaces& surfaces, const Box& box, std::span<Vec2> force) {
+    watch(surfaces);
+    wall_force_.fill(Vec2::Zero());
+    find_near(box);
+    found_.resize(std::max(found_.size(), near_.size()));
+    const double half = 0.5 * grains_.disc->surface_weight();
+#pragma omp parallel for schedule(dynamic, 4) if (grains_.threads)
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+        found_[n].clear();
+        const auto i = static_cast<std::size_t>(near_[n].i);
+        if (near_[n].j < 0) {
+            find_wall_points(surfaces, box, i, -1 - near_[n].j, found_[n]);
+            continue;
+        }
+        const auto j = static_cast<std::size_t>(near_[n].j);
+        find_points(surfaces, i, j, half * grains_.grain[i].radius, found_[n]);
+        find_points(surfaces, j, i, half * grains_.grain[j].radius, found_[n]);
+    }
+    points_.clear();
+    groups_.clear();
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+        if (found_[n].empty()) continue;
+        groups_.push_back({near_[n].i, near_[n].j, static_cast<int>(points_.size()),
+                           static_cast<int>(found_[n].size())});
+        points_.insert(points_.end(), found_[n].begin(), found_[n].end());
+    }
     energy_ = 0.0;
     for (const PointContact& c : points_) {
         if (!c.touches()) continue;

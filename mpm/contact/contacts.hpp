@@ -62,8 +62,11 @@ class Contacts {
     const std::array<Vec2, 4>& wall_force() const { return wall_force_; }
 
   private:
-    void find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length);
-    void find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall);
+    void find_near(const Box& box);
+    void find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length,
+                     std::vector<PointContact>& out) const;
+    void find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall,
+                          std::vector<PointContact>& out) const;
     double mean_radius() const;
     double stiffness_per_length(const Grain& a, const Grain& b) const;
 
@@ -74,6 +77,8 @@ class Contacts {
     std::vector<Vec2> center_;
     std::vector<double> reach_;
     std::vector<Vec2> low_, high_;  ///< corners around each grain
+    std::vector<Pair> near_;                         ///< sorted by (i, j), walls first
+    std::vector<std::vector<PointContact>> found_;  ///< [near]
     std::vector<PointContact> points_;
     std::vector<ContactGroup> groups_;
     std::array<Vec2, 4> wall_force_;

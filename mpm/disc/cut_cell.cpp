@@ -8,6 +8,7 @@ namespace softgrain::mpm {
 namespace {
 
 constexpr double gauss = 0.57735026918962576451;  // 1/sqrt(3)
+constexpr double same_direction = 1e-9;
 constexpr double smallest_share = 1e-12;          // of the rectangle, below which a piece is nothing
 
 /// Heights between which the line at x lies in rectangle and disc.
@@ -73,12 +74,14 @@ std::vector<QuadraturePoint> quadrature_in_disc(const Vec2& low, const Vec2& hig
                 points.push_back({middle + half.cwiseProduct(Vec2{s, t}), half.prod()});
         return points;
     }
-    // Columns along the direction in which the circle is less steep.
-    const bool swapped = std::abs(middle.x()) > std::abs(middle.y());
-    if (swapped)
-        add_columns({low.y(), low.x()}, {high.y(), high.x()}, true, points);
-    else
-        add_columns(low, high, false, points);
+    // Columns along the direction in which the circle is less steep; on a diagonal the mean of both, so that
+    // the disc has the symmetry of its grid.
+    const double x = std::abs(middle.x()), y = std::abs(middle.y());
+    const bool diagonal = std::abs(x - y) < same_direction;
+    if (y >= x || diagonal) add_columns(low, high, false, points);
+    if (x > y || diagonal) add_columns({low.y(), low.x()}, {high.y(), high.x()}, true, points);
+    if (diagonal)
+        for (QuadraturePoint& p : points) p.weight *= 0.5;
     return points;
 }
 

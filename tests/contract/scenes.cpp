@@ -10,20 +10,17 @@ const std::vector<Bands>& all_bands() {
         // Elastic discs: rounding only, but for the damped approach to rest; edges of a cell drawn elsewhere
         // round otherwise (5e-13 seen in the stress). The ledger is good to the leap-frog (9e-5 seen).
         {"sdem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-4, 1e-12, 400.0, 5e-3, 1e-3, 350.0, 0.5, 1e-10, 1e-6, 1e-6,
-         true, 1e-11},
+         1e-11},
         // Aggregates: the rough rim finds its place at the start; rearranging discs amplify rounding (1e-9
         // seen between images); stick-slip never quite comes to rest; pores between the bumps of two grains
         // that touch count as covered. A weight moves a disc in a step by less than the contact solver's
         // tolerance: it is carried in the mean (3e-3 seen in the stress), not in every step.
         {"bpm", 0.15, 1e-3, 1e-5, 1e-3, 0.15, 0.15, 0.05, 60.0, 0.07, 2e-3, 25.0, 1.0, 1e-10, 0.02, 1.0},
         {"rigid_dem", 0.0, 0.0, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 400.0, 1e-3, 5e-4, 700.0, 1.0, 1e-10, 1e-6,
-         1e-6, true, 1e-8},
-        // Resolved grains, in equilibrium to 1e-5 of the largest force of a node: a reaction is the sum of
-        // many
-        // nodes. Where the search for an equilibrium ends depends on rounding, within that tolerance. Shape
-        // functions sum to one within rounding.
-        {"mpm", 1e-14, 1e-14, 1e-5, 1e-4, 1e-3, 5e-3, 1e-12, 1.0, 5e-3, 1e-3, 350.0, 1.0, 1e-10, 1e-3, 1e-3,
-         false},
+         1e-6, 1e-8},
+        // Resolved grains moved by leap-frog. Shape functions sum to one within rounding. Grains that bounce
+        // deform little, and only that is damped: a column still trembles, its mean force is within 4 %.
+        {"mpm", 1e-14, 1e-12, 1e-9, 1e-8, 0.02, 5e-3, 1e-12, 300.0, 8e-3, 1e-2, 0.0, 0.5, 1e-10, 0.05, 1.0},
     };
     return table;
 }
@@ -35,7 +32,7 @@ void PrintTo(const Bands& bands, std::ostream* out) {
 Scenario scenario_of(const std::string& method, const std::string& extra) {
     const std::string text =
         "title = \"contract\"\n[[loading]]\nkind = \"isotropic\"\nstrain_rate = 1e-3\nuntil_strain = 0.1\n"
-        "[bpm]\ndiscs_per_grain = 40\n[mpm]\npoints_across_radius = 4\n" +
+        "[bpm]\ndiscs_per_grain = 40\n[mpm]\ndriver = \"explicit\"\npoints_across_radius = 4\n" +
         extra;
     return scenario_for(parse_scenario(text, "contract.toml", {}, method_keys()), find_method(method));
 }

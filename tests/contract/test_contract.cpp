@@ -48,7 +48,6 @@ TEST_P(Contract, NoMotionWhereThereIsNoForce) {
 
 /// The walls' impulse is all that changes the momentum of the grains.
 TEST_P(Contract, MomentumComesFromTheWalls) {
-    if (!GetParam().inertia) GTEST_SKIP() << "its grains have no momentum";
     const Packing packing = nine_grains();
     const auto solver = solver_for(packing);
     const auto total_force = [&] {
@@ -60,7 +59,7 @@ TEST_P(Contract, MomentumComesFromTheWalls) {
     Vec2 implicit = Vec2::Zero();   // impulses of the step itself (contact dynamics)
     Vec2 explicit_ = Vec2::Zero();  // forces at the start of each step (leap-frog)
     Vec2 centred = Vec2::Zero();    // the same over half of the step before and half of this one
-    double step_before = 0.0;
+    double step_before = 0.0;       // and the mean of the first two is a kick at either end
     double largest = 0.0;
     double error = 0.0;
     push(*solver, packing.box, Wall::left, 0.08, 0.05 * slow(*solver), [&](const Box&, double dt) {
@@ -74,7 +73,8 @@ TEST_P(Contract, MomentumComesFromTheWalls) {
         for (std::size_t g = 0; g < view.size(); ++g) momentum += view.mass[g] * view.velocity[g];
         largest = std::max(largest, momentum.norm());
         error = std::max(error, std::min({(momentum - implicit).norm(), (momentum - explicit_).norm(),
-                                          (momentum - centred).norm()}));
+                                          (momentum - centred).norm(),
+                                          (momentum - 0.5 * (explicit_ + implicit)).norm()}));
     });
     ASSERT_GT(largest, 0.0);
     EXPECT_LE(error, 1e-10 * largest);
@@ -153,7 +153,7 @@ TEST_P(Contract, LookingAtTheGrainsDoesNotChangeThem) {
 
 TEST_P(Contract, TwoThreadsGiveTheBitsOfOne) {
     const bool grains_have_parts = GetParam().method == "bpm" || GetParam().method == "mpm";
-    const Packing packing = square_lattice(!grains_have_parts ? 36 : GetParam().inertia ? 8 : 4);
+    const Packing packing = square_lattice(grains_have_parts ? 8 : 36);
     expect_threads_keep_bits([&] { return solver_for(packing); }, {1, 2},
                              [&](Solver& solver) {
                                  squeeze(solver, packing.box, 0.02,

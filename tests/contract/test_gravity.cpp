@@ -53,7 +53,6 @@ double weight_of(const GrainView& view) {
 
 /// x_N = x_0 + g t^2 / 2 of a first kick by half a step, + g t dt / 2 more of a whole one.
 TEST_P(Gravity, FreeFallIsThatOfTheLeapFrog) {
-    if (!GetParam().inertia) GTEST_SKIP() << "its grains are in equilibrium";
     constexpr int steps = 200;
     const Packing packing = apart();
     Scenario scenario = scenario_of(GetParam().method);
@@ -119,7 +118,6 @@ TEST_P(Gravity, AColumnRestsOnItsFloor) {
 }
 
 TEST_P(Gravity, ARestartedFallHasTheSameBits) {
-    if (!GetParam().inertia) GTEST_SKIP() << "its grains are in equilibrium";
     const Packing packing = column();
     const auto run = [&](Solver& solver) {
         const double dt = 0.5 * solver.stable_time_step();
