@@ -130,6 +130,22 @@ void ContactModel::add_force(std::span<const char> active, std::span<Vec2> force
     }
 }
 
+void ContactModel::find_changes(std::span<const char> from, std::span<const char> to,
+                                std::vector<ContactSpring>& out) const {
+    out.clear();
+    for (std::size_t p = 0; p < point_.size(); ++p) {
+        if (from[p] == to[p]) continue;
+        const Point& point = point_[p];
+        ContactSpring& spring = out.emplace_back();
+        spring.stiffness = to[p] ? point.stiffness : -point.stiffness;
+        for (int k = point.first; k < point.first + point.count; ++k) {
+            const Entry& entry = entry_[at(group_of_[p])][at(k)];
+            spring.node.push_back(node_[at(group_of_[p])][at(entry.local)]);
+            spring.by.push_back(entry.difference * point.normal);
+        }
+    }
+}
+
 /// d2(k/2 g^2) = k (dg dg + g d2g), -d2g = (kappa b b + L (b beta + beta b) + g beta beta) / (L^2 - g kappa)
 /// with dg = n.(dp - dc), b = t.(dp - dc), beta = n.d(dc/dt), L = |dc/dt|, kappa = n.d2c/dt2.
 void ContactModel::find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const {

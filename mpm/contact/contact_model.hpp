@@ -15,6 +15,13 @@ struct ContactStiffness {
     Eigen::MatrixXd matrix;  ///< [2 nodes x 2 nodes], lower triangle
 };
 
+/// Adds stiffness * by by^T on some nodes.
+struct ContactSpring {
+    std::vector<int> node;  ///< of all nodes
+    std::vector<Vec2> by;
+    double stiffness;  ///< [N/m] negative if it is taken away
+};
+
 /// Gaps g + grad g . d of all points that touch or are near. Energy: k/2 (g + grad g . d)^2 of each active
 /// point, and half of d . (force x second derivative of g) d of those that touch at d = 0.
 class ContactModel {
@@ -27,6 +34,9 @@ class ContactModel {
     void find_active(std::span<const Vec2> d, std::vector<char>& active) const;
     /// Of the groups, in their order.
     void find_stiffness(std::span<const char> active, std::vector<ContactStiffness>& out) const;
+    /// What find_stiffness() finds more for `to` than for `from`.
+    void find_changes(std::span<const char> from, std::span<const char> to,
+                      std::vector<ContactSpring>& out) const;
     /// Adds -k g grad g of the active points: what they push their nodes with.
     void add_force(std::span<const char> active, std::span<Vec2> force) const;
     /// Energy of a step d.
