@@ -175,12 +175,12 @@ void GrainForces::add_cell_stiffness(const Cell& c, std::size_t number, const Gr
                 y[a] = -(A(1, 0) * gx[a] + A(1, 1) * gy[a]);
             }
         }
-        block_[b].setZero(stride, nodes);
+        block_[b].resize(stride, nodes);
         const auto s = static_cast<std::size_t>(stride);
         if (b == 1)
-            subtract_product(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s);
+            find_product(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s);
         else
-            subtract_lower(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s, 0, rows);
+            find_lower_product(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s, 0, rows);
     }
     if (cell_curvature_[number] != 0.0) {
         const Mat4 T = pull_back(grain.inverse_frame);

@@ -12,8 +12,10 @@ constexpr std::size_t width = Eigen::internal::packet_traits<double>::size;
 /// Packets of rows in a block that is kept in registers.
 constexpr std::size_t most_packets = 3;
 
-/// C -= A B^T for `packets` packets of rows of A and `columns` rows of B.
-template <std::size_t packets, std::size_t columns>
+enum class Into { sum, new_numbers };
+
+/// C -= A B^T, or C = -A B^T, for `packets` packets of rows of A and `columns` rows of B.
+template <Into into, std::size_t packets, std::size_t columns>
 void subtract_block(const double* a, const double* b, std::size_t stride, std::size_t inner, double* c,
                     std::size_t c_stride) {
     using namespace Eigen::internal;
@@ -31,34 +33,38 @@ void subtract_block(const double* a, const double* b, std::size_t stride, std::s
     for (std::size_t j = 0; j < columns; ++j)
         for (std::size_t i = 0; i < packets; ++i) {
             double* const to = c + j * c_stride + i * width;
-            pstoreu(to, psub(ploadu<Packet>(to), sum[i][j]));
+            if constexpr (into == Into::sum)
+                pstoreu(to, psub(ploadu<Packet>(to), sum[i][j]));
+            else
+                pstoreu(to, pnegate(sum[i][j]));
         }
 }
 
 /// The same for any number of rows.
-template <std::size_t columns>
+template <Into into, std::size_t columns>
 void subtract_panel(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
                     double* c, std::size_t c_stride) {
     std::size_t row = 0;
     for (; row + (most_packets - 1) * width < rows; row += most_packets * width)
-        subtract_block<most_packets, columns>(a + row, b, stride, inner, c + row, c_stride);
+        subtract_block<into, most_packets, columns>(a + row, b, stride, inner, c + row, c_stride);
     if (row + width < rows)
-        subtract_block<2, columns>(a + row, b, stride, inner, c + row, c_stride);
+        subtract_block<into, 2, columns>(a + row, b, stride, inner, c + row, c_stride);
     else if (row < rows)
-        subtract_block<1, columns>(a + row, b, stride, inner, c + row, c_stride);
+        subtract_block<into, 1, columns>(a + row, b, stride, inner, c + row, c_stride);
 }
 
+template <Into into>
 void subtract_panel(std::size_t columns, const double* a, const double* b, std::size_t stride,
                     std::size_t rows, std::size_t inner, double* c, std::size_t c_stride) {
     switch (columns) {
         case 4:
-            return subtract_panel<4>(a, b, stride, rows, inner, c, c_stride);
+            return subtract_panel<into, 4>(a, b, stride, rows, inner, c, c_stride);
         case 3:
-            return subtract_panel<3>(a, b, stride, rows, inner, c, c_stride);
+            return subtract_panel<into, 3>(a, b, stride, rows, inner, c, c_stride);
         case 2:
-            return subtract_panel<2>(a, b, stride, rows, inner, c, c_stride);
+            return subtract_panel<into, 2>(a, b, stride, rows, inner, c, c_stride);
         default:
-            return subtract_panel<1>(a, b, stride, rows, inner, c, c_stride);
+            return subtract_panel<into, 1>(a, b, stride, rows, inner, c, c_stride);
     }
 }
 
@@ -94,24 +100,25 @@ bool factor_columns(double* a, std::size_t stride, std::size_t rows, std::size_t
     for (std::size_t j = 0; j < columns; j += panel_columns) {
         const std::size_t count = std::min(panel_columns, columns - j);
         double* const own = a + j * stride + j;
-        subtract_panel(count, a + j, a + j, stride, rows - j, j, own, stride);
+        subtract_panel<Into::sum>(count, a + j, a + j, stride, rows - j, j, own, stride);
         if (!factor_panel(own, stride, rows - j, count)) return false;
     }
     return true;
 }
 
-void subtract_product(const double* a, const double* b, std::size_t stride, std::size_t rows,
-                      std::size_t inner, double* c, std::size_t c_stride) {
+void find_product(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
+                  double* c, std::size_t c_stride) {
     for (std::size_t j = 0; j < rows; j += panel_columns)
-        subtract_panel(std::min(panel_columns, rows - j), a, b + j, stride, rows, inner, c + j * c_stride,
-                       c_stride);
+        subtract_panel<Into::new_numbers>(std::min(panel_columns, rows - j), a, b + j, stride, rows, inner,
+                                          c + j * c_stride, c_stride);
 }
 
-void subtract_lower(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
-                    double* c, std::size_t c_stride, std::size_t first, std::size_t last) {
+void find_lower_product(const double* a, const double* b, std::size_t stride, std::size_t rows,
+                        std::size_t inner, double* c, std::size_t c_stride, std::size_t first,
+                        std::size_t last) {
     for (std::size_t j = first; j < last; j += panel_columns)
-        subtract_panel(std::min(panel_columns, last - j), a + j, b + j, stride, rows - j, inner,
-                       c + j * c_stride + j, c_stride);
+        subtract_panel<Into::new_numbers>(std::min(panel_columns, last - j), a + j, b + j, stride, rows - j,
+                                          inner, c + j * c_stride + j, c_stride);
 }
 
 }  // namespace softgrain::mpm

@@ -12,13 +12,15 @@ std::size_t stored_rows(std::size_t rows);
 /// is above the diagonal is overwritten. False if they are not positive definite.
 bool factor_columns(double* a, std::size_t stride, std::size_t rows, std::size_t columns);
 
-/// C -= A B^T for A and B [rows x inner].
-void subtract_product(const double* a, const double* b, std::size_t stride, std::size_t rows,
-                      std::size_t inner, double* c, std::size_t c_stride);
+/// C = -A B^T for A and B [rows x inner].
+void find_product(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
+                  double* c, std::size_t c_stride);
 
-/// Its lower triangle in columns [first, last). What is above the diagonal is overwritten.
-void subtract_lower(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
-                    double* c, std::size_t c_stride, std::size_t first, std::size_t last);
+/// Its lower triangle in columns [first, last). Up to 3 numbers of a column above the diagonal are
+/// overwritten.
+void find_lower_product(const double* a, const double* b, std::size_t stride, std::size_t rows,
+                        std::size_t inner, double* c, std::size_t c_stride, std::size_t first,
+                        std::size_t last);
 
 /// Columns are best divided at multiples of this.
 inline constexpr std::size_t panel_columns = 4;

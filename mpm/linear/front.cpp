@@ -33,35 +33,32 @@ std::vector<Run> runs_of(std::span<const int> places) {
     return found;
 }
 
-void Front::clear() {
+void Front::begin() {
     const std::size_t p = 2 * pivots.size(), r = 2 * rest.size();
     stride_ = stored_rows(p + r);
     left_stride_ = stored_rows(r);
     columns_.resize(stride_ * p);
     left_ = std::make_unique_for_overwrite<double[]>(left_stride_ * r);
     clear_lower(columns_.data(), stride_, p);
-    clear_lower(left_.get(), left_stride_, r);
+    if (p == 0) clear_lower(left_.get(), left_stride_, r);
 }
 
-double* Front::column_of(int place) {
-    const std::size_t p = pivots.size(), k = at(place);
-    return k < p ? columns_.data() + 2 * k * stride_ : left_.get() + 2 * (k - p) * left_stride_;
-}
-
-void Front::add(const DenseElement& from, std::span<const Run> runs) {
-    const int p = static_cast<int>(pivots.size());
+void Front::add(Part part, const DenseElement& from, std::span<const Run> runs) {
+    const std::size_t p = pivots.size();
+    const std::size_t stride = part == Part::columns ? stride_ : left_stride_;
+    const std::size_t above = part == Part::columns ? 0 : p;
     for (std::size_t first = 0; first < runs.size(); ++first)
         for (int b = 0; b < runs[first].count; ++b) {
             const int column = runs[first].to + b;
-            const int above = column < p ? 0 : p;
-            const std::size_t stride = column < p ? stride_ : left_stride_;
-            double* const to = column_of(column);
+            if (part_of(column) != part) continue;
+            double* const to = part == Part::columns ? columns_.data() + 2 * at(column) * stride
+                                                     : left_.get() + 2 * (at(column) - p) * stride;
             const double* const source = from.data + 2 * at(runs[first].from + b) * from.stride;
             for (std::size_t k = first; k < runs.size(); ++k) {
                 const int skip = k == first ? b : 0;
                 const int count = 2 * (runs[k].count - skip);
                 const double* const s = source + 2 * (runs[k].from + skip);
-                double* const t = to + 2 * (runs[k].to + skip - above);
+                double* const t = to + 2 * (at(runs[k].to + skip) - above);
                 for (int i = 0; i < count; ++i) t[i] += s[i];
                 const double* const s1 = s + from.stride;
                 double* const t1 = t + stride;
@@ -70,22 +67,23 @@ void Front::add(const DenseElement& from, std::span<const Run> runs) {
         }
 }
 
-void Front::add(const Eigen::MatrixXd& from, std::span<const int> places) {
+void Front::add(Part part, const Eigen::MatrixXd& from, std::span<const int> places) {
     for (std::size_t b = 0; b < places.size(); ++b)
         for (std::size_t a = b; a < places.size(); ++a) {
+            const auto [column, row] = std::minmax(places[a], places[b]);
+            if (part_of(column) != part) continue;
             const Mat2 block =
                 from.block<2, 2>(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b));
-            if (places[a] >= places[b])
-                add(places[a], places[b], block);
-            else
-                add(places[b], places[a], block.transpose());
+            add(row, column, places[a] >= places[b] ? block : Mat2(block.transpose()));
         }
 }
 
 void Front::add(int row, int column, const Mat2& block) {
-    const int p = static_cast<int>(pivots.size());
-    double* const to = column_of(column) + 2 * (column < p ? row : row - p);
-    const std::size_t stride = column < p ? stride_ : left_stride_;
+    const std::size_t p = pivots.size(), r = at(row), c = at(column);
+    const bool left = c >= p;
+    const std::size_t stride = left ? left_stride_ : stride_;
+    double* const to =
+        left ? left_.get() + 2 * ((c - p) * stride + r - p) : columns_.data() + 2 * (c * stride + r);
     to[0] += block(0, 0);
     to[1] += block(1, 0);
     to[stride] += block(0, 1);
@@ -102,13 +100,13 @@ bool Front::reduce(bool shared) {
     if (!factor_columns(columns_.data(), stride_, p + r, p)) return false;
     const double* const below = columns_.data() + p;
     if (!shared) {
-        subtract_lower(below, below, stride_, r, p, left_.get(), left_stride_, 0, r);
+        find_lower_product(below, below, stride_, r, p, left_.get(), left_stride_, 0, r);
         return true;
     }
 #pragma omp taskloop grainsize(1)
     for (std::size_t first = 0; first < r; first += shared_columns)
-        subtract_lower(below, below, stride_, r, p, left_.get(), left_stride_, first,
-                       std::min(r, first + shared_columns));
+        find_lower_product(below, below, stride_, r, p, left_.get(), left_stride_, first,
+                           std::min(r, first + shared_columns));
     return true;
 }
 

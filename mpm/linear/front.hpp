@@ -36,11 +36,14 @@ struct Front {
     DenseElement left() const { return {left_.get(), left_stride_}; }
     void forget_left() { left_.reset(); }
 
-    void clear();
-    /// Adds a matrix on some of the nodes.
-    void add(const DenseElement& from, std::span<const Run> runs);
+    /// A front is summed in two parts: its columns before reduce(), what is left after it; without pivots all
+    /// of it after begin().
+    enum class Part { columns, left };
+    void begin();
+    /// Adds a part of a matrix on some of the nodes.
+    void add(Part part, const DenseElement& from, std::span<const Run> runs);
     /// The same in any order of nodes.
-    void add(const Eigen::MatrixXd& from, std::span<const int> places);
+    void add(Part part, const Eigen::MatrixXd& from, std::span<const int> places);
     /// Adds 2 x 2 numbers; row >= column are places.
     void add(int row, int column, const Mat2& block);
     void shift_pivots(double by);
@@ -58,8 +61,9 @@ struct Front {
     Eigen::OuterStride<> stride_of() const {
         return Eigen::OuterStride<>(static_cast<Eigen::Index>(stride_));
     }
-    /// Of a column of a node, from the first row of the matrix that has it.
-    double* column_of(int place);
+    Part part_of(int column) const {
+        return static_cast<std::size_t>(column) < pivots.size() ? Part::columns : Part::left;
+    }
 
     std::vector<double> columns_;  ///< of the pivots [stride x 2 pivots]
     std::unique_ptr<double[]> left_;

@@ -152,7 +152,7 @@ bool FrontSolver::factor_grain(const Stiffness& K, std::size_t g) {
     const Mat2 shift = K.shift * Mat2::Identity();
     std::vector<int> place(grains_.nodes());
     for (Front& front : grain_[g].front) {
-        front.clear();
+        front.begin();
         std::fill(place.begin(), place.end(), -1);
         int count = 0;
         for (const int m : front.pivots) place[at(m)] = count++;
@@ -168,33 +168,44 @@ bool FrontSolver::factor_grain(const Stiffness& K, std::size_t g) {
             }
             front.add(column, column, shift);
         }
-        for (const int e : front.elements) {
-            Front& child = grain_[g].front[at(e)];
-            front.add(child.left(), grain_[g].runs[at(e)]);
-            child.forget_left();
-        }
+        const auto sum = [&](Front::Part part) {
+            for (const int e : front.elements)
+                front.add(part, grain_[g].front[at(e)].left(), grain_[g].runs[at(e)]);
+        };
+        sum(Front::Part::columns);
         if (!front.reduce()) return false;
+        sum(Front::Part::left);
+        for (const int e : front.elements) grain_[g].front[at(e)].forget_left();
     }
     return true;
 }
 
 void FrontSolver::factor_front(const Stiffness& K, std::size_t f) {
     Front& front = tree_.front[f];
-    front.clear();
-    for (const int element : front.elements) {
-        const std::size_t e = at(element), grains = grain_.size(), contacts = K.contact.size();
-        if (e < grains) {
-            front.add(grain_[e].front.back().left(), grain_runs_[e]);
-        } else if (e < grains + contacts) {
-            front.add(K.contact[e - grains].matrix, contact_place_[e - grains]);
-        } else {
-            Front& child = tree_.front[e - grains - contacts];
-            front.add(child.left(), tree_.runs[e - grains - contacts]);
-            child.forget_left();
+    const std::size_t grains = grain_.size(), contacts = K.contact.size();
+    const auto sum = [&](Front::Part part) {
+        for (const int element : front.elements) {
+            const std::size_t e = at(element);
+            if (e < grains) {
+                front.add(part, grain_[e].front.back().left(), grain_runs_[e]);
+            } else if (e < grains + contacts) {
+                front.add(part, K.contact[e - grains].matrix, contact_place_[e - grains]);
+            } else {
+                const std::size_t child = e - grains - contacts;
+                front.add(part, tree_.front[child].left(), tree_.runs[child]);
+            }
         }
-    }
+    };
+    front.begin();
+    sum(Front::Part::columns);
     front.shift_pivots(K.contact_shift);
-    if (!front.reduce(grains_.threads && front.operations() > worth_sharing)) positive_ = false;
+    if (!front.reduce(grains_.threads && front.operations() > worth_sharing)) {
+        positive_ = false;
+        return;
+    }
+    sum(Front::Part::left);
+    for (const int element : front.elements)
+        if (at(element) >= grains + contacts) tree_.front[at(element) - grains - contacts].forget_left();
 }
 
 void FrontSolver::factor_subtree(const Stiffness& K, std::size_t f) {
