@@ -184,8 +184,14 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
     }
     linear_->begin(alone);
     ModelSearch search(model_);
+    std::vector<Touch> factored;
+    std::vector<ContactSpring> changes;
     for (int look = 1;; ++look) {
-        while (true) {
+        model_.find_changes(factored.empty() ? active_ : factored, active_, changes);
+        const bool kept = look > 1 && linear_->change_contacts(changes);
+        if (!kept && look > 1) model_.find_stiffness(active_, stiffness_.contact);
+        if (!kept) factored = active_;
+        while (!kept) {
             stiffness_.contact_shift = modulus_ * hold_;
             ++result.factorizations;
             if (linear_->factor_contacts(stiffness_)) break;
@@ -210,9 +216,7 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
             next_active_ = search.touches();
         }
         if (seen || look == most_looks) break;
-        if (next_active_ == active_) continue;
         active_.swap(next_active_);
-        model_.find_stiffness(active_, stiffness_.contact);
     }
     linear_->finish(step_);
     return true;

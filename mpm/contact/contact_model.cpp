@@ -95,7 +95,7 @@ Touch ContactModel::touch(std::size_t p, const Vec2& moved) const {
     const Point& point = point_[p];
     const Slider& slider = point.slider;
     const double pull = slider.trial + slider.stiffness * point.tangent.dot(moved);
-    const bool holds = slider.stiffness == 0.0 || std::abs(pull) <= slider.most;
+    const bool holds = slider.stiffness == 0.0 || (slider.most > 0.0 && std::abs(pull) <= slider.most);
     return {point.gap + point.normal.dot(moved) < 0.0, static_cast<signed char>(holds ? 0 : pull > 0.0 ? 1 : -1)};
 }
 
@@ -165,6 +165,26 @@ void ContactModel::add_force(std::span<const Touch> active, std::span<Vec2> forc
         const Vec2 push = this->force(p, Vec2::Zero(), active[p]);
         for (int k = point.first; k < point.first + point.count; ++k)
             force[at(node[at(entry[at(k)].local)])] += entry[at(k)].difference * push;
+    }
+}
+
+void ContactModel::find_changes(std::span<const Touch> from, std::span<const Touch> to,
+                                std::vector<ContactSpring>& out) const {
+    out.clear();
+    for (std::size_t p = 0; p < point_.size(); ++p) {
+        const Point& point = point_[p];
+        const auto add = [&](bool before, bool after, double stiffness, const Vec2& direction) {
+            if (before == after || stiffness == 0.0) return;
+            ContactSpring& spring = out.emplace_back();
+            spring.stiffness = after ? stiffness : -stiffness;
+            for (int k = point.first; k < point.first + point.count; ++k) {
+                const Entry& entry = entry_[at(group_of_[p])][at(k)];
+                spring.node.push_back(node_[at(group_of_[p])][at(entry.local)]);
+                spring.by.push_back(entry.difference * direction);
+            }
+        };
+        add(from[p].presses, to[p].presses, point.stiffness, point.normal);
+        add(from[p].slides == 0, to[p].slides == 0, point.slider.stiffness, point.tangent);
     }
 }
 

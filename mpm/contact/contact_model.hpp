@@ -24,6 +24,13 @@ struct Touch {
     friend bool operator==(const Touch&, const Touch&) = default;
 };
 
+/// Adds stiffness * by by^T on some nodes.
+struct ContactSpring {
+    std::vector<int> node;  ///< of all nodes
+    std::vector<Vec2> by;
+    double stiffness;  ///< [N/m] negative if it is taken away
+};
+
 /// Gaps g + grad g . d of all points that touch or are near. Energy: k/2 (g + grad g . d)^2 of each active
 /// point, and half of d . (force x second derivative of g) d of those that touch at d = 0. Friction: springs
 /// along the tangent that slide at a known force, whether the point presses or not.
@@ -37,6 +44,9 @@ class ContactModel {
     void find_active(std::span<const Vec2> d, std::vector<Touch>& active) const;
     /// Of the groups, in their order.
     void find_stiffness(std::span<const Touch> active, std::vector<ContactStiffness>& out) const;
+    /// What find_stiffness() finds more for `to` than for `from`.
+    void find_changes(std::span<const Touch> from, std::span<const Touch> to,
+                      std::vector<ContactSpring>& out) const;
     /// Adds -k g grad g of the points that press, and friction: what they push their nodes with at d = 0.
     void add_force(std::span<const Touch> active, std::span<Vec2> force) const;
     /// Energy of a step d.

@@ -1,251 +1,232 @@
 #include "mpm/linear/front_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <set>
 
 namespace softgrain::mpm {
 namespace {
+
+/// A subtree with fewer operations is one thread's; a front with more is shared.
+constexpr double worth_a_task = 1e6, worth_sharing = 2e7;
+/// Operations of a factorization that are as fast as one of a correction of low rank.
+constexpr double slower_correction = 2.0;
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
 }
 
-Eigen::Index size_of(const std::vector<int>& nodes) {
-    return 2 * static_cast<Eigen::Index>(nodes.size());
-}
-
-/// Place of each node of `some` in the front of pivots and rest. All three are ascending.
-std::vector<int> places(const std::vector<int>& some, const std::vector<int>& pivots,
-                        const std::vector<int>& rest) {
-    std::vector<int> place;
-    place.reserve(some.size());
-    auto p = pivots.begin();
-    auto r = rest.begin();
-    for (const int node : some) {
-        p = std::lower_bound(p, pivots.end(), node);
-        if (p != pivots.end() && *p == node) {
-            place.push_back(static_cast<int>(p - pivots.begin()));
-            continue;
-        }
-        r = std::lower_bound(r, rest.end(), node);
-        place.push_back(static_cast<int>(pivots.size()) + static_cast<int>(r - rest.begin()));
-    }
-    return place;
-}
-
-double operations_of(const std::vector<int>& pivots, const std::vector<int>& rest) {
-    const auto cube = [](double x) { return x * x * x; };
-    const auto p = static_cast<double>(size_of(pivots)), r = static_cast<double>(size_of(rest));
-    return (cube(p + r) - cube(r)) / 3.0;
-}
-
 }  // namespace
-
-FrontSolver::Element FrontSolver::element(const Stiffness& K, int number) const {
-    const std::size_t e = at(number), grains = grain_.size(), contacts = K.contact.size();
-    if (e < grains) return {grain_[e].touched, grain_[e].front.back().left};
-    if (e < grains + contacts) return {K.contact[e - grains].node, K.contact[e - grains].matrix};
-    const Front& front = front_[e - grains - contacts];
-    return {front.rest, front.left};
-}
 
 void FrontSolver::plan(const Stiffness& K) {
     bool same = planned_for_.size() == K.contact.size() && grain_.size() == grains_.size();
     for (std::size_t c = 0; same && c < K.contact.size(); ++c) same = planned_for_[c] == K.contact[c].node;
     if (same) return;
     planned_for_.clear();
-    std::vector<char> touched(grains_.all_nodes(), 0);
-    for (const ContactStiffness& c : K.contact) {
-        planned_for_.push_back(c.node);
-        for (const int node : c.node) touched[at(node)] = 1;
-    }
-    grain_.resize(grains_.size());
-    operations_ = 0.0;
-#pragma omp parallel for schedule(static) if (grains_.threads)
-    for (std::size_t g = 0; g < grains_.size(); ++g)
-        plan_grain(g, std::span(touched).subspan(g * grains_.nodes(), grains_.nodes()));
+    for (const ContactStiffness& c : K.contact) planned_for_.push_back(c.node);
     plan_contacts(K);
+#pragma omp parallel for schedule(static) if (grains_.threads)
+    for (std::size_t g = 0; g < grains_.size(); ++g) plan_grain(g);
+    grain_operations_ = 0.0;
     for (const GrainFronts& grain : grain_)
-        for (const Front& front : grain.front) operations_ += operations_of(front.pivots, front.rest);
-    for (const Front& front : front_) operations_ += operations_of(front.pivots, front.rest);
-}
-
-/// By the dissection of the disc; nodes that a contact touches are left.
-void FrontSolver::plan_grain(std::size_t g, std::span<const char> touched) {
-    const Dissection& dissection = *grains_.dissection;
-    GrainFronts& grain = grain_[g];
-    grain.front.clear();
-    grain.touched.clear();
-    std::vector<char> done(touched.begin(), touched.end());                // touched, or eliminated
-    std::vector<std::vector<int>> children(dissection.region.size() + 1);  // fronts that a region sums
-    for (std::size_t k = 0; k < dissection.region.size(); ++k) {
-        const Dissection::Region& region = dissection.region[k];
-        auto& next = children[region.parent < 0 ? dissection.region.size() : at(region.parent)];
-        Front front;
-        std::set<int> rest;
-        for (const int m : region.nodes)
-            if (!touched[at(m)]) front.pivots.push_back(m);
-        if (front.pivots.empty()) {
-            next.insert(next.end(), children[k].begin(), children[k].end());
-            continue;
-        }
-        for (const int m : front.pivots)
-            for (const Coupling& c : dissection.coupled[at(m)])
-                if (touched[at(c.node)] || !done[at(c.node)]) rest.insert(c.node);
-        for (const int child : children[k])
-            rest.insert(grain.front[at(child)].rest.begin(), grain.front[at(child)].rest.end());
-        for (const int m : front.pivots) {
-            rest.erase(m);
-            done[at(m)] = 1;
-        }
-        front.rest.assign(rest.begin(), rest.end());
-        front.elements = std::move(children[k]);
-        next.push_back(static_cast<int>(grain.front.size()));
-        grain.front.push_back(std::move(front));
-    }
-    Front last;
-    for (std::size_t m = 0; m < touched.size(); ++m)
-        if (touched[m]) {
-            last.rest.push_back(static_cast<int>(m));
-            grain.touched.push_back(static_cast<int>(g * touched.size() + m));
-        }
-    last.elements = std::move(children.back());
-    grain.front.push_back(std::move(last));
+        for (const Front& front : grain.front) grain_operations_ += front.operations();
 }
 
 /// Elements are what is left of each grain, then contacts, then what is left by fronts.
 void FrontSolver::plan_contacts(const Stiffness& K) {
+    const std::size_t all = grains_.all_nodes(), grains = grains_.size(), contacts = K.contact.size();
+    std::vector<char> touched(all, 0);
+    for (const ContactStiffness& c : K.contact)
+        for (const int node : c.node) touched[at(node)] = 1;
+    grain_.resize(grains);
     std::vector<std::vector<int>> elements;
-    for (const GrainFronts& grain : grain_) elements.push_back(grain.touched);
+    for (std::size_t g = 0; g < grains; ++g) {
+        grain_[g].touched.clear();
+        for (std::size_t m = g * grains_.nodes(); m < (g + 1) * grains_.nodes(); ++m)
+            if (touched[m]) grain_[g].touched.push_back(static_cast<int>(m));
+        elements.push_back(grain_[g].touched);
+    }
     for (const ContactStiffness& c : K.contact) elements.push_back(c.node);
-    std::vector<EliminationStep> steps = eliminate(elements, grains_.all_nodes());
-    front_.resize(steps.size());
-    std::vector<int> level(steps.size(), 0);
-    int levels = 0;
-    for (std::size_t f = 0; f < steps.size(); ++f) {
-        front_[f].pivots = std::move(steps[f].pivots);
-        front_[f].rest = std::move(steps[f].rest);
-        front_[f].elements = std::move(steps[f].elements);
-        for (const int e : front_[f].elements)
-            if (at(e) >= elements.size()) level[f] = std::max(level[f], level[at(e) - elements.size()] + 1);
-        levels = std::max(levels, level[f] + 1);
-    }
-    by_level_.clear();
-    level_start_.assign(1, 0);
-    for (int l = 0; l < levels; ++l) {
-        for (std::size_t f = 0; f < front_.size(); ++f)
-            if (level[f] == l) by_level_.push_back(static_cast<int>(f));
-        level_start_.push_back(static_cast<int>(by_level_.size()));
-    }
-}
+    std::vector<EliminationStep> steps = eliminate(elements, all);
 
-void FrontSolver::Front::clear() {
-    const Eigen::Index p = size_of(pivots), r = size_of(rest);
-    columns.setZero(p + r, p);
-    left.setZero(r, r);
-}
-
-void FrontSolver::Front::add(const Eigen::MatrixXd& from, const std::vector<int>& nodes) {
-    const std::vector<int> place = places(nodes, pivots, rest);
-    const int p = static_cast<int>(pivots.size());
-    for (std::size_t b = 0; b < place.size(); ++b)
-        for (std::size_t a = b; a < place.size(); ++a) {
-            const auto block =
-                from.block<2, 2>(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b));
-            const auto [column, row] = std::minmax(place[a], place[b]);
-            auto to = column < p ? columns.block<2, 2>(2 * row, 2 * column)
-                                 : left.block<2, 2>(2 * (row - p), 2 * (column - p));
-            if (place[a] >= place[b])
-                to += block;
-            else
-                to += block.transpose();
+    tree_.rank.assign(all, -1);
+    tree_.front_of.assign(all, -1);
+    int next = 0;
+    for (std::size_t f = 0; f < steps.size(); ++f)
+        for (const int node : steps[f].pivots) {
+            tree_.rank[at(node)] = next++;
+            tree_.front_of[at(node)] = static_cast<int>(f);
         }
+    const auto sort = [&](std::vector<int>& nodes) {
+        std::sort(nodes.begin(), nodes.end(),
+                  [&](int a, int b) { return tree_.rank[at(a)] < tree_.rank[at(b)]; });
+    };
+    for (GrainFronts& grain : grain_) sort(grain.touched);
+    for (EliminationStep& step : steps) sort(step.rest);
+
+    tree_.front.resize(steps.size());
+    tree_.parent.assign(steps.size(), -1);
+    tree_.runs.assign(steps.size(), {});
+    grain_runs_.assign(grains, {});
+    contact_place_.assign(contacts, {});
+    subtree_operations_.assign(steps.size(), 0.0);
+    contact_operations_ = contact_numbers_ = 0.0;
+    for (std::size_t f = 0; f < steps.size(); ++f) {
+        Front& front = tree_.front[f];
+        front.pivots = std::move(steps[f].pivots);
+        front.rest = std::move(steps[f].rest);
+        front.elements = std::move(steps[f].elements);
+        const double own = front.operations();
+        contact_operations_ += own;
+        contact_numbers_ +=
+            4.0 * static_cast<double>(front.pivots.size() * (front.pivots.size() + front.rest.size()));
+        subtree_operations_[f] += own;
+        for (const int element : front.elements) {
+            const std::size_t e = at(element);
+            if (e < grains) {
+                grain_runs_[e] = runs_of(tree_.places(grain_[e].touched, front));
+            } else if (e < grains + contacts) {
+                contact_place_[e - grains] = tree_.places(K.contact[e - grains].node, front);
+            } else {
+                const std::size_t child = e - grains - contacts;
+                tree_.runs[child] = runs_of(tree_.places(tree_.front[child].rest, front));
+                tree_.parent[child] = static_cast<int>(f);
+                subtree_operations_[f] += subtree_operations_[child];
+            }
+        }
+    }
 }
 
-bool FrontSolver::Front::reduce() {
-    const Eigen::Index p = size_of(pivots), r = size_of(rest);
-    if (p == 0) return true;
-    auto top = columns.topRows(p);
-    if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(top) >= 0) return false;
-    if (r == 0) return true;
-    auto below = columns.bottomRows(r);
-    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-    left.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
-    return true;
-}
+/// By the dissection of the disc; nodes that a contact touches are left.
+void FrontSolver::plan_grain(std::size_t g) {
+    const Dissection& dissection = *grains_.dissection;
+    const std::size_t nodes = grains_.nodes(), regions = dissection.region.size();
+    GrainFronts& grain = grain_[g];
+    grain.front.clear();
+    std::vector<int> touched;
+    for (const int m : grain.touched) touched.push_back(m - static_cast<int>(g * nodes));
+    FrontTree order;
+    order.rank.assign(nodes, 0);
+    int next = static_cast<int>(nodes);
+    for (const int m : touched) order.rank[at(m)] = next++;
+    next = 0;
+    for (const auto& region : dissection.region)
+        for (const int m : region.nodes)
+            if (order.rank[at(m)] < static_cast<int>(nodes)) order.rank[at(m)] = next++;
+    const auto earlier = [&](int a, int b) { return order.rank[at(a)] < order.rank[at(b)]; };
 
-void FrontSolver::Front::forward(std::span<Vec2> x) const {
-    const Eigen::Index p = size_of(pivots), r = size_of(rest);
-    if (p == 0) return;
-    Eigen::VectorXd own(p), others(r);
-    for (std::size_t k = 0; k < pivots.size(); ++k)
-        own.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(pivots[k])];
-    columns.topRows(p).triangularView<Eigen::Lower>().solveInPlace(own);
-    others.noalias() = columns.bottomRows(r) * own;
-    for (std::size_t k = 0; k < pivots.size(); ++k)
-        x[at(pivots[k])] = own.segment<2>(static_cast<Eigen::Index>(2 * k));
-    for (std::size_t k = 0; k < rest.size(); ++k)
-        x[at(rest[k])] -= others.segment<2>(static_cast<Eigen::Index>(2 * k));
-}
-
-void FrontSolver::Front::backward(std::span<Vec2> x) const {
-    const Eigen::Index p = size_of(pivots), r = size_of(rest);
-    if (p == 0) return;
-    Eigen::VectorXd own(p), others(r);
-    for (std::size_t k = 0; k < pivots.size(); ++k)
-        own.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(pivots[k])];
-    for (std::size_t k = 0; k < rest.size(); ++k)
-        others.segment<2>(static_cast<Eigen::Index>(2 * k)) = x[at(rest[k])];
-    own.noalias() -= columns.bottomRows(r).transpose() * others;
-    columns.topRows(p).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    for (std::size_t k = 0; k < pivots.size(); ++k)
-        x[at(pivots[k])] = own.segment<2>(static_cast<Eigen::Index>(2 * k));
+    std::vector<std::vector<int>> children(regions + 1);  // fronts that a region sums
+    for (std::size_t k = 0; k < regions; ++k) {
+        const Dissection::Region& region = dissection.region[k];
+        auto& beyond = children[region.parent < 0 ? regions : at(region.parent)];
+        Front front;
+        for (const int m : region.nodes)
+            if (order.rank[at(m)] < static_cast<int>(nodes)) front.pivots.push_back(m);
+        if (front.pivots.empty()) {
+            beyond.insert(beyond.end(), children[k].begin(), children[k].end());
+            continue;
+        }
+        const int last = order.rank[at(front.pivots.back())];
+        for (const int m : front.pivots)
+            for (const Coupling& c : dissection.coupled[at(m)])
+                if (order.rank[at(c.node)] > last) front.rest.push_back(c.node);
+        for (const int child : children[k])
+            for (const int m : grain.front[at(child)].rest)
+                if (order.rank[at(m)] > last) front.rest.push_back(m);
+        std::sort(front.rest.begin(), front.rest.end(), earlier);
+        front.rest.erase(std::unique(front.rest.begin(), front.rest.end()), front.rest.end());
+        front.elements = std::move(children[k]);
+        beyond.push_back(static_cast<int>(grain.front.size()));
+        grain.front.push_back(std::move(front));
+    }
+    Front left;
+    left.rest = std::move(touched);
+    left.elements = std::move(children.back());
+    grain.front.push_back(std::move(left));
+    grain.runs.assign(grain.front.size(), {});
+    for (const Front& front : grain.front)
+        for (const int e : front.elements)
+            grain.runs[at(e)] = runs_of(order.places(grain.front[at(e)].rest, front));
 }
 
 bool FrontSolver::factor_grain(const Stiffness& K, std::size_t g) {
     const Mat2* block = K.grain.data() + g * grains_.pattern->size();
+    const Mat2 shift = K.shift * Mat2::Identity();
     std::vector<int> place(grains_.nodes());
     for (Front& front : grain_[g].front) {
-        front.clear();
+        front.begin();
         std::fill(place.begin(), place.end(), -1);
         int count = 0;
         for (const int m : front.pivots) place[at(m)] = count++;
         for (const int m : front.rest) place[at(m)] = count++;
         // The last front takes what is coupled among its own.
-        Eigen::MatrixXd& matrix = front.pivots.empty() ? front.left : front.columns;
-        for (const int m : front.pivots.empty() ? front.rest : front.pivots)
+        for (const int m : front.pivots.empty() ? front.rest : front.pivots) {
+            const int column = place[at(m)];
             for (const Coupling& c : grains_.dissection->coupled[at(m)]) {
-                const int row = place[at(c.node)], column = place[at(m)];
+                const int row = place[at(c.node)];
                 if (row < column) continue;
-                if (c.transposed)
-                    matrix.block<2, 2>(2 * row, 2 * column) = block[c.place];
-                else
-                    matrix.block<2, 2>(2 * row, 2 * column) = block[c.place].transpose();
-                if (row == column) matrix.diagonal().segment<2>(2 * row).array() += K.shift;
+                const Mat2& found = block[c.place];
+                front.add(row, column, c.transposed ? found : Mat2(found.transpose()));
             }
-        for (const int e : front.elements) {
-            const Front& child = grain_[g].front[at(e)];
-            front.add(child.left, child.rest);
+            front.add(column, column, shift);
         }
+        const auto sum = [&](Front::Part part) {
+            for (const int e : front.elements)
+                front.add(part, grain_[g].front[at(e)].left(), grain_[g].runs[at(e)]);
+        };
+        sum(Front::Part::columns);
         if (!front.reduce()) return false;
+        sum(Front::Part::left);
+        for (const int e : front.elements) grain_[g].front[at(e)].forget_left();
     }
     return true;
 }
 
-bool FrontSolver::factor_front(const Stiffness& K, std::size_t f) {
-    Front& front = front_[f];
-    front.clear();
-    for (const int e : front.elements) {
-        const Element part = element(K, e);
-        front.add(part.matrix, part.nodes);
+void FrontSolver::factor_front(const Stiffness& K, std::size_t f) {
+    Front& front = tree_.front[f];
+    const std::size_t grains = grain_.size(), contacts = K.contact.size();
+    const auto sum = [&](Front::Part part) {
+        for (const int element : front.elements) {
+            const std::size_t e = at(element);
+            if (e < grains) {
+                front.add(part, grain_[e].front.back().left(), grain_runs_[e]);
+            } else if (e < grains + contacts) {
+                front.add(part, K.contact[e - grains].matrix, contact_place_[e - grains]);
+            } else {
+                const std::size_t child = e - grains - contacts;
+                front.add(part, tree_.front[child].left(), tree_.runs[child]);
+            }
+        }
+    };
+    front.begin();
+    sum(Front::Part::columns);
+    front.shift_pivots(K.contact_shift);
+    if (!front.reduce(grains_.threads && front.operations() > worth_sharing)) {
+        positive_ = false;
+        return;
     }
-    front.columns.diagonal().array() += K.contact_shift;
-    return front.reduce();
+    sum(Front::Part::left);
+    for (const int element : front.elements)
+        if (at(element) >= grains + contacts) tree_.front[at(element) - grains - contacts].forget_left();
+}
+
+void FrontSolver::factor_subtree(const Stiffness& K, std::size_t f) {
+    const std::size_t given = grain_.size() + K.contact.size();
+    for (const int element : tree_.front[f].elements) {
+        if (at(element) < given) continue;
+        const std::size_t child = at(element) - given;
+        if (subtree_operations_[child] < worth_a_task) {
+            factor_subtree(K, child);
+            continue;
+        }
+#pragma omp task shared(K) firstprivate(child)
+        factor_subtree(K, child);
+    }
+#pragma omp taskwait
+    if (positive_) factor_front(K, f);
 }
 
 bool FrontSolver::factor_grains(const Stiffness& K) {
     plan(K);
+    change_.clear();
     bool positive = true;
 #pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive) if (grains_.threads)
     for (std::size_t g = 0; g < grain_.size(); ++g) positive = factor_grain(K, g) && positive;
@@ -253,13 +234,19 @@ bool FrontSolver::factor_grains(const Stiffness& K) {
 }
 
 bool FrontSolver::factor_contacts(const Stiffness& K) {
-    bool positive = true;
-    for (std::size_t l = 0; positive && l + 1 < level_start_.size(); ++l) {
-#pragma omp parallel for schedule(dynamic, 1) reduction(&& : positive) if (grains_.threads)
-        for (int k = level_start_[l]; k < level_start_[l + 1]; ++k)
-            positive = factor_front(K, at(by_level_[at(k)])) && positive;
-    }
-    return positive;
+    change_.clear();
+    positive_ = true;
+#pragma omp parallel if (grains_.threads)
+#pragma omp single
+    for (std::size_t f = 0; f < tree_.front.size(); ++f)
+        if (tree_.parent[f] < 0) factor_subtree(K, f);
+    return positive_;
+}
+
+bool FrontSolver::change_contacts(std::span<const ContactSpring> added) {
+    const double operations = 2.0 * contact_numbers_ * static_cast<double>(added.size());
+    if (slower_correction * operations > contact_operations_) return false;
+    return change_.set(added, tree_);
 }
 
 void FrontSolver::begin(std::span<const Vec2> b) {
@@ -272,8 +259,9 @@ void FrontSolver::begin(std::span<const Vec2> b) {
 
 void FrontSolver::solve_contacts(std::span<const Vec2> c, std::span<Vec2> x) {
     for (std::size_t m = 0; m < x.size(); ++m) x[m] = begun_[m] + c[m];
-    for (const Front& front : front_) front.forward(x);
-    for (auto front = front_.rbegin(); front != front_.rend(); ++front) front->backward(x);
+    for (const Front& front : tree_.front) front.forward(x);
+    change_.correct(tree_, x);
+    for (auto front = tree_.front.rbegin(); front != tree_.front.rend(); ++front) front->backward(x);
 }
 
 void FrontSolver::finish(std::span<Vec2> x) {

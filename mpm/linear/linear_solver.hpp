@@ -24,6 +24,9 @@ class LinearSolver {
     /// The rest, for the same grains and nodes: once or more. False if K is not positive definite; it is then
     /// not to be solved with.
     virtual bool factor_contacts(const Stiffness& K) = 0;
+    /// Takes K as last factored and these springs instead. False if this is not worth while, or K is not
+    /// positive definite: it is then to be factored.
+    virtual bool change_contacts(std::span<const ContactSpring>) { return false; }
 
     /// Begins to solve K x = b + c for forces c that change only nodes of contacts; b [all nodes].
     virtual void begin(std::span<const Vec2> b) = 0;

@@ -365,6 +365,75 @@ TEST(FrontSolver, GrainsThatTouchNothingAmongThoseThatDo) {
     expect_right(front, problem.grains(), problem.K, problem.load());
 }
 
+TEST(FrontSolver, FewChangedSpringsAreACorrection) {
+    std::mt19937_64 random(17);
+    Problem problem(4, 3, 3, 17);
+    const Grains& grains = problem.grains();
+    const auto b = problem.load();
+    std::vector<Slider> sliders;
+    for (const PointContact& c : problem.contacts.points()) sliders.push_back({1.0, 0.3 * c.stiffness});
+    problem.model.build(problem.contacts, sliders);
+    for (Touch& a : problem.active)
+        a = {random() % 2 != 0, static_cast<signed char>(static_cast<int>(random() % 3) - 1)};
+    problem.model.find_stiffness(problem.active, problem.K.contact);
+    FrontSolver front(grains);
+    ASSERT_FALSE(solution(front, problem.K, b).empty());
+    const std::vector<Touch> factored = problem.active;
+    std::vector<ContactSpring> changes;
+    for (const int count : {1, 3, 8, 0, 12}) {
+        // From what is factored, not from the last change; some more, some less.
+        problem.active = factored;
+        for (int k = 0; k < count; ++k) {
+            Touch& a = problem.active[random() % problem.active.size()];
+            if (k % 2 == 0)
+                a.presses = !a.presses;
+            else
+                a.slides = a.slides == 0 ? 1 : 0;
+        }
+        problem.model.find_changes(factored, problem.active, changes);
+        ASSERT_TRUE(front.change_contacts(changes)) << count;
+        Stiffness changed = problem.K;
+        problem.model.find_stiffness(problem.active, changed.contact);
+        SparseSolver sparse(grains);
+        const auto right = solution(sparse, changed, b);
+        ASSERT_FALSE(right.empty());
+        EXPECT_LT(difference(solve(front, b), right), same) << count;
+    }
+    // Factoring forgets them; so many are not worth while.
+    ASSERT_TRUE(front.factor_contacts(problem.K));
+    SparseSolver sparse(grains);
+    EXPECT_LT(difference(solve(front, b), solution(sparse, problem.K, b)), same);
+    problem.model.find_changes(std::vector<Touch>(factored.size()), std::vector<Touch>(factored.size(), Touch{true}),
+                               changes);
+    EXPECT_FALSE(front.change_contacts(changes));
+}
+
+TEST(FrontSolver, TellsWhetherACorrectionIsPositiveDefinite) {
+    Problem problem(3, 2, 2, 18);
+    FrontSolver front(problem.grains());
+    const auto b = problem.load();
+    ASSERT_FALSE(solution(front, problem.K, b).empty());
+    std::vector<ContactSpring> changes;
+    std::vector<Touch> others = problem.active;
+    others[0] = others[1] = Touch{};
+    problem.model.find_changes(others, problem.active, changes);
+    ASSERT_EQ(changes.size(), 2U);
+    changes[1].stiffness *= 0.5;
+    // A spring of this stiffness less leaves no stiffness at all along it.
+    MatrixXd A = dense(problem.grains(), problem.K);
+    VectorXd g = VectorXd::Zero(A.rows()), h = g;
+    for (std::size_t k = 0; k < changes[0].node.size(); ++k)
+        g.segment<2>(2 * changes[0].node[k]) += changes[0].by[k];
+    for (std::size_t k = 0; k < changes[1].node.size(); ++k)
+        h.segment<2>(2 * changes[1].node[k]) += changes[1].by[k];
+    A += changes[1].stiffness * h * h.transpose();
+    const double limit = 1.0 / g.dot(A.llt().solve(g));
+    for (const double part : {0.5, 0.999, 1.001, 3.0}) {
+        changes[0].stiffness = -part * limit;
+        EXPECT_EQ(front.change_contacts(changes), part < 1.0) << part;
+    }
+}
+
 TEST(FrontSolver, SameBitsForAnyNumberOfThreads) {
     Problem problem(5, 3, 3, 13);
     problem.K.contact_shift = 1e-2;
