@@ -12,6 +12,10 @@ constexpr int most_steps = 30;
 constexpr double small_step = 1e-13;
 /// Share of |dc/dt|^2 below which the curvature may not bring the second derivative of the distance.
 constexpr double least_convexity = 0.2;
+/// How far a curve may bulge over the line along a control point [distance of its neighbours].
+constexpr double bulge = 0.25;
+
+}  // namespace
 
 std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p) {
     std::size_t nearest = 0;
@@ -26,11 +30,35 @@ std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p) {
     return nearest;
 }
 
-}  // namespace
+std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p, std::size_t known) {
+    const std::size_t n = control.size();
+    double least = (control[known] - p).squaredNorm();
+    for (const std::size_t way : {std::size_t{1}, n - 1})
+        for (std::size_t next = (known + way) % n;; next = (known + way) % n) {
+            const double distance = (control[next] - p).squaredNorm();
+            if (distance >= least) break;
+            least = distance;
+            known = next;
+        }
+    const Vec2 along = control[(known + 1) % n] - control[(known + n - 1) % n], away = p - control[known];
+    const bool deep = cross(away, along) < 0.0 && least > along.squaredNorm();
+    return deep ? nearest_control(control, p) : known;
+}
+
+bool is_far_outside(std::span<const Vec2> control, const Vec2& p, std::size_t nearest, double gap) {
+    const std::size_t n = control.size();
+    const Vec2 along = control[(nearest + 1) % n] - control[(nearest + n - 1) % n];
+    const double size = along.norm();
+    return cross(p - control[nearest], along) > (gap + bulge * size) * size;
+}
 
 CurvePlace closest_place(std::span<const Vec2> control, const Vec2& p) {
+    return closest_place(control, p, nearest_control(control, p));
+}
+
+CurvePlace closest_place(std::span<const Vec2> control, const Vec2& p, std::size_t nearest) {
     const auto n = static_cast<int>(control.size());
-    int span = static_cast<int>(nearest_control(control, p)) - 1;
+    int span = static_cast<int>(nearest) - 1;
     double t = 0.5;
     for (int step = 0;; ++step) {
         span = (span % n + n) % n;

@@ -18,7 +18,17 @@ struct CurvePlace {
     double curvature;  ///< n . d2c/dt2, negative where the curve is convex
 };
 
-/// Nearest place of the curve to p, started at the nearest control point. control [n >= 3] counter-clockwise.
+/// control [n >= 3] counter-clockwise.
+std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p);
+/// The same for a point near one whose nearest control is known: goes along the curve as long as it comes nearer,
+/// and looks everywhere only if the point turns out to lie deep inside.
+std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p, std::size_t known);
+
+/// Whether p lies farther out than `gap`, as far as its nearest control point tells.
+bool is_far_outside(std::span<const Vec2> control, const Vec2& p, std::size_t nearest, double gap);
+
+/// Nearest place of the curve to p, started at the nearest control point.
+CurvePlace closest_place(std::span<const Vec2> control, const Vec2& p, std::size_t nearest);
 CurvePlace closest_place(std::span<const Vec2> control, const Vec2& p);
 
 }  // namespace softgrain::mpm

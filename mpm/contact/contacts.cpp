@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mpm/contact/spread.hpp"
 
@@ -66,12 +67,17 @@ void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t 
                            std::vector<PointContact>& out) const {
     const auto points = surfaces.points_of(grains_, i);
     const auto controls = surfaces.controls_of(grains_, j);
+    std::optional<std::size_t> nearest;  // to the last point, if that was near
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Vec2& x = points[k];
         if ((x.array() < low_[j].array() - near_gap_).any() ||
-            (x.array() > high_[j].array() + near_gap_).any())
+            (x.array() > high_[j].array() + near_gap_).any()) {
+            nearest.reset();
             continue;
-        const CurvePlace place = closest_place(controls, x);
+        }
+        nearest = nearest ? nearest_control(controls, x, *nearest) : nearest_control(controls, x);
+        if (is_far_outside(controls, x, *nearest, near_gap_)) continue;
+        const CurvePlace place = closest_place(controls, x, *nearest);
         if (place.gap >= near_gap_) continue;
         out.push_back({static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
                        length * stiffness_per_length(grains_.grain[i], grains_.grain[j])});
