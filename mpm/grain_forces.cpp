@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mpm/linear/dense_cholesky.hpp"
 
 namespace softgrain::mpm {
 namespace {
@@ -149,38 +148,25 @@ double GrainForces::evaluate(const Grain& grain, std::span<const Vec2> q, std::s
     return energy * grain.area;
 }
 
-/// G A G^T for each pair of components, G the gradients at all points of the cell [nodes x 2 points].
+/// G^T A G for each pair of components, G the gradients at all points of the cell.
 void GrainForces::add_cell_stiffness(const Cell& c, std::size_t number, const Grain& grain,
                                      std::span<Mat2> stiffness) {
     const int points = c.points, nodes = c.nodes;
-    const auto rows = static_cast<std::size_t>(nodes), inner = static_cast<std::size_t>(2 * points);
-    const auto stride = static_cast<Eigen::Index>(stored_rows(rows));
-    gradient_.setZero(stride, 2 * points);
-    image_.setZero(stride, 2 * points);
+    gradient_.resize(2 * points, nodes);
+    image_.resize(2 * points, nodes);
     const Vec2* gradient = disc_.gradient.data() + c.first_gradient;
     for (int p = 0; p < points; ++p)
         for (int a = 0; a < nodes; ++a, ++gradient) {
-            gradient_(a, 2 * p) = gradient->x();
-            gradient_(a, 2 * p + 1) = gradient->y();
+            gradient_(2 * p, a) = gradient->x();
+            gradient_(2 * p + 1, a) = gradient->y();
         }
     constexpr int row_of[3] = {0, 2, 2}, column_of[3] = {0, 0, 2};  // xx, yx, yy
     for (int b = 0; b < 3; ++b) {
-        for (int p = 0; p < points; ++p) {
-            const Mat2 A =
-                tangent_[static_cast<std::size_t>(c.first_point + p)].block<2, 2>(row_of[b], column_of[b]);
-            const double *gx = &gradient_(0, 2 * p), *gy = gx + stride;
-            double *x = &image_(0, 2 * p), *y = x + stride;
-            for (int a = 0; a < nodes; ++a) {
-                x[a] = -(A(0, 0) * gx[a] + A(0, 1) * gy[a]);
-                y[a] = -(A(1, 0) * gx[a] + A(1, 1) * gy[a]);
-            }
-        }
-        block_[b].resize(stride, nodes);
-        const auto s = static_cast<std::size_t>(stride);
-        if (b == 1)
-            find_product(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s);
-        else
-            find_lower_product(gradient_.data(), image_.data(), s, rows, inner, block_[b].data(), s, 0, rows);
+        for (int p = 0; p < points; ++p)
+            image_.middleRows<2>(2 * p).noalias() =
+                tangent_[static_cast<std::size_t>(c.first_point + p)].block<2, 2>(row_of[b], column_of[b]) *
+                gradient_.middleRows<2>(2 * p);
+        block_[b].noalias() = gradient_.transpose() * image_;
     }
     if (cell_curvature_[number] != 0.0) {
         const Mat4 T = pull_back(grain.inverse_frame);

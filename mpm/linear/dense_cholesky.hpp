@@ -1,28 +1,17 @@
 #pragma once
-// Cholesky's method for the dense matrices of fronts: a few hundred unknowns, often only tens.
-#include <cstddef>
+// Cholesky's method for the dense matrices of fronts, by Eigen.
+#include <Eigen/Core>
 
 namespace softgrain::mpm {
 
-/// Rows that a column needs in storage: products are taken in whole packets and may write so far past the
-/// last row. What is there must be finite and means nothing.
-std::size_t stored_rows(std::size_t rows);
+using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-/// Factors the first `columns` of `rows` x `columns` numbers (columns <= rows, lower triangle) in place; what
-/// is above the diagonal is overwritten. False if they are not positive definite.
-bool factor_columns(double* a, std::size_t stride, std::size_t rows, std::size_t columns);
+/// Factors [rows x columns], columns <= rows, in place: its lower triangle and what is below. False if it is not
+/// positive definite.
+bool factor_columns(Strided A);
 
-/// C = -A B^T for A and B [rows x inner].
-void find_product(const double* a, const double* b, std::size_t stride, std::size_t rows, std::size_t inner,
-                  double* c, std::size_t c_stride);
-
-/// Its lower triangle in columns [first, last). Up to 3 numbers of a column above the diagonal are
-/// overwritten.
-void find_lower_product(const double* a, const double* b, std::size_t stride, std::size_t rows,
-                        std::size_t inner, double* c, std::size_t c_stride, std::size_t first,
-                        std::size_t last);
-
-/// Columns are best divided at multiples of this.
-inline constexpr std::size_t panel_columns = 4;
+/// Columns [first, last) of the lower triangle of -A A^T.
+void find_lower_product(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& A, Strided C,
+                        Eigen::Index first, Eigen::Index last);
 
 }  // namespace softgrain::mpm

@@ -8,16 +8,15 @@ namespace softgrain::mpm {
 namespace {
 
 /// Columns that a thread takes at once of what is left of a large front.
-constexpr std::size_t shared_columns = 8 * panel_columns;
+constexpr Eigen::Index shared_columns = 128;
 
 std::size_t at(int k) {
     return static_cast<std::size_t>(k);
 }
 
-/// The lower triangle of the first columns of a matrix, with all that kernels touch.
+/// The lower triangle of the first columns of a matrix.
 void clear_lower(double* a, std::size_t stride, std::size_t columns) {
-    for (std::size_t j = 0; j < columns; ++j)
-        std::fill(a + j * stride + j / panel_columns * panel_columns, a + (j + 1) * stride, 0.0);
+    for (std::size_t j = 0; j < columns; ++j) std::fill(a + j * stride + j, a + (j + 1) * stride, 0.0);
 }
 
 }  // namespace
@@ -35,8 +34,8 @@ std::vector<Run> runs_of(std::span<const int> places) {
 
 void Front::begin() {
     const std::size_t p = 2 * pivots.size(), r = 2 * rest.size();
-    stride_ = stored_rows(p + r);
-    left_stride_ = stored_rows(r);
+    stride_ = p + r;
+    left_stride_ = r;
     columns_.resize(stride_ * p);
     left_ = std::make_unique_for_overwrite<double[]>(left_stride_ * r);
     clear_lower(columns_.data(), stride_, p);
@@ -97,16 +96,14 @@ void Front::shift_pivots(double by) {
 bool Front::reduce(bool shared) {
     const std::size_t p = 2 * pivots.size(), r = 2 * rest.size();
     if (p == 0) return true;
-    if (!factor_columns(columns_.data(), stride_, p + r, p)) return false;
-    const double* const below = columns_.data() + p;
-    if (!shared) {
-        find_lower_product(below, below, stride_, r, p, left_.get(), left_stride_, 0, r);
-        return true;
-    }
-#pragma omp taskloop grainsize(1)
-    for (std::size_t first = 0; first < r; first += shared_columns)
-        find_lower_product(below, below, stride_, r, p, left_.get(), left_stride_, first,
-                           std::min(r, first + shared_columns));
+    const auto index = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
+    const Strided columns(columns_.data(), index(p + r), index(p), Eigen::OuterStride<>(index(stride_)));
+    if (!factor_columns(columns)) return false;
+    const Strided left(left_.get(), index(r), index(r), Eigen::OuterStride<>(index(left_stride_)));
+    // The same panels for any number of threads.
+#pragma omp taskloop grainsize(1) if (shared)
+    for (Eigen::Index first = 0; first < index(r); first += shared_columns)
+        find_lower_product(columns.bottomRows(index(r)), left, first, std::min(index(r), first + shared_columns));
     return true;
 }
 

@@ -96,10 +96,14 @@ bool LowRank::factor(std::span<const ContactSpring* const> spring, Eigen::Index 
     second_ = -first_.bottomRightCorner(negative, negative);
     coupling_ = first_.bottomLeftCorner(negative, positive).transpose();
     first_ = first_.topLeftCorner(positive, positive).eval();
+    // Eigen's products of matrices without rows divide by zero.
     if (positive > 0 && !factor_lower(first_)) return false;
-    first_.triangularView<Eigen::Lower>().solveInPlace(coupling_);
-    second_.selfadjointView<Eigen::Lower>().rankUpdate(coupling_.transpose());
-    return negative == 0 || factor_lower(second_);
+    if (negative == 0) return true;
+    if (positive > 0) {
+        first_.triangularView<Eigen::Lower>().solveInPlace(coupling_);
+        second_.selfadjointView<Eigen::Lower>().rankUpdate(coupling_.transpose());
+    }
+    return factor_lower(second_);
 }
 
 void LowRank::correct(const FrontTree& tree, std::span<Vec2> x) const {

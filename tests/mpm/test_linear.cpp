@@ -399,6 +399,21 @@ TEST(FrontSolver, FewChangedSpringsAreACorrection) {
         ASSERT_FALSE(right.empty());
         EXPECT_LT(difference(solve(front, b), right), same) << count;
     }
+    // Only less, only more.
+    const auto pressing = static_cast<std::size_t>(
+        std::ranges::find(factored, true, &Touch::presses) - factored.begin());
+    const auto loose = static_cast<std::size_t>(
+        std::ranges::find(factored, false, &Touch::presses) - factored.begin());
+    for (const std::size_t point : {pressing, loose}) {
+        problem.active = factored;
+        problem.active[point].presses = !problem.active[point].presses;
+        problem.model.find_changes(factored, problem.active, changes);
+        ASSERT_TRUE(front.change_contacts(changes));
+        Stiffness changed = problem.K;
+        problem.model.find_stiffness(problem.active, changed.contact);
+        SparseSolver sparse(grains);
+        EXPECT_LT(difference(solve(front, b), solution(sparse, changed, b)), same) << point;
+    }
     // Factoring forgets them; so many are not worth while.
     ASSERT_TRUE(front.factor_contacts(problem.K));
     SparseSolver sparse(grains);
