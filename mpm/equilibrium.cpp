@@ -211,7 +211,8 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
             for (std::size_t m = 0; m < step_.size(); ++m) step_[m] += share * (looked_[m] - step_[m]);
         next_active_ = search.touches();
         bool seen = share == 1.0 && next_active_ == active_;
-        if (seen && friction_.exists() && model_.bound_friction(search.moved()) > same_friction * force_scale_) {
+        if (seen && friction_.exists() &&
+            model_.bound_friction(search.moved()) > same_friction * force_scale_) {
             seen = false;
             next_active_ = search.touches();
         }

@@ -20,7 +20,7 @@ struct EquilibriumSettings {
     int most_iterations = 200;
     double penalty = 200.0;  ///< contact stiffness [modulus / grid spacing]
     bool mean_dilatation = false;
-    Vec2 gravity = Vec2::Zero();  ///< [m/s^2]
+    Vec2 gravity = Vec2::Zero();                 ///< [m/s^2]
     double friction = 0.0, wall_friction = 0.0;  ///< Coulomb coefficients
 };
 

@@ -45,7 +45,8 @@ std::span<const KeySpec> keys() {
          KeyType::text,
          std::string("quasi_static"),
          "",
-         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for friction; "
+         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for "
+         "friction; "
          "\"explicit\" is dynamics by leap-frog",
          any_number,
          {"quasi_static", "implicit", "explicit"}},
@@ -102,12 +103,8 @@ std::span<const KeySpec> keys() {
          "",
          "time step of explicit dynamics / largest stable one",
          {1e-3, 1.0}},
-        {"damping",
-         KeyType::number,
-         0.5,
-         "sqrt(E/rho) / radius of the smallest grain",
-         "damping of what grains move beside their rigid motion, in explicit dynamics",
-         not_negative},
+        {"damping", KeyType::number, 0.5, "sqrt(E/rho) / radius of the smallest grain",
+         "damping of what grains move beside their rigid motion, in explicit dynamics", not_negative},
     }};
     return table;
 }

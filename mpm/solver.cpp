@@ -45,7 +45,8 @@ MpmSolver::MpmSolver(const Scenario& scenario, const Packing& packing)
         motion_ = std::make_unique<ExplicitMotion>(grains_, motion);
         motion_->begin(q_, box_);
     } else {
-        equilibrium_ = std::make_unique<Equilibrium>(grains_, implicit, std::make_unique<FrontSolver>(grains_));
+        equilibrium_ =
+            std::make_unique<Equilibrium>(grains_, implicit, std::make_unique<FrontSolver>(grains_));
         if (std::ranges::any_of(grains_.law, [](const auto& law) { return law->remembers(); }))
             equilibrium_->plastic.resize(grains_.size() * grains_.points());
     }
@@ -138,8 +139,7 @@ void MpmSolver::advance_implicitly(const WallMotion& walls, double dt) {
     const std::vector<Vec2> before = centroid_;
     const Box end = walls.after(dt);
     double parts = strain_rate_ * dt / settings_.strain_step;
-    if (settings_.driver == Driver::implicit)
-        parts = std::max(parts, dt / (settings_.time_step * crossing_));
+    if (settings_.driver == Driver::implicit) parts = std::max(parts, dt / (settings_.time_step * crossing_));
     parts = std::max(1.0, std::ceil(parts * (1.0 - 1e-9)));
     EquilibriumResult result;
     iterations_of_step_ = 0.0;
@@ -214,13 +214,14 @@ bool MpmSolver::move_walls(const Box& to, double dt, EquilibriumResult& result) 
     box_ = to;
     flow();
     find_centroids();
-    // What rearrangements set free is taken away by the search for the next equilibrium, or by Euler's method.
+    // What rearrangements set free is taken away by the search for the next equilibrium, or by Euler's
+    // method.
     const double stored = energy_.elastic + energy_.kinetic, plastic = energy_.plastic;
     const double rubbed = equilibrium_->friction().end();
     energy_.friction += rubbed;
     find_energy();
-    energy_.damping +=
-        work + work_of_gravity() - (energy_.elastic + energy_.kinetic - stored) - (energy_.plastic - plastic) - rubbed;
+    energy_.damping += work + work_of_gravity() - (energy_.elastic + energy_.kinetic - stored) -
+                       (energy_.plastic - plastic) - rubbed;
     return true;
 }
 

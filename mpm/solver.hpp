@@ -28,8 +28,9 @@ struct MpmSettings {
 /// Reads the table [mpm] of a scenario, defaults where there is none.
 MpmSettings settings_of(const Scenario& scenario);
 
-/// quasi_static: time is only what the walls move by; each step ends in equilibrium. implicit: Euler's implicit
-/// method, which is equilibrium with inertia. Both in as many smaller steps as it takes. explicit: leap-frog.
+/// quasi_static: time is only what the walls move by; each step ends in equilibrium. implicit: Euler's
+/// implicit method, which is equilibrium with inertia. Both in as many smaller steps as it takes. explicit:
+/// leap-frog.
 class MpmSolver final : public Solver {
   public:
     /// Throws InputError if the packing has no grains, DivergedError if its overlaps cannot be resolved.
@@ -81,9 +82,9 @@ class MpmSolver final : public Solver {
     Grains grains_;
     std::unique_ptr<Equilibrium> equilibrium_;  ///< of the implicit drivers
     std::unique_ptr<ExplicitMotion> motion_;    ///< of the explicit one
-    std::unique_ptr<GrainForces> forces_;  ///< for views
-    std::vector<Vec2> q_;                  ///< [grains * nodes] coefficients of positions [m]
-    std::vector<Vec2> v_;                  ///< and of velocities; zero without dynamics [m/s]
+    std::unique_ptr<GrainForces> forces_;       ///< for views
+    std::vector<Vec2> q_;                       ///< [grains * nodes] coefficients of positions [m]
+    std::vector<Vec2> v_;                       ///< and of velocities; zero without dynamics [m/s]
     std::vector<Vec2> force_;
     double stress_scale_ = 0.0;
     double crossing_ = std::numeric_limits<double>::infinity();  ///< least radius / sqrt(E/rho) [s]

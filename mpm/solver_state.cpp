@@ -29,7 +29,7 @@ void MpmSolver::save(Checkpoint& to) const {
     to.put("mpm.wall_force", std::span<const Vec2>(wall_force_));
     const std::array scalars{
         time_,        energy_.external_work, iterations_of_step_, static_cast<double>(iterations_),
-        strain_rate_, energy_.damping, energy_.friction};
+        strain_rate_, energy_.damping,       energy_.friction};
     to.put("mpm.scalars", std::span<const double>(scalars));
     std::vector<double> plastic;
     for (const PlasticState& s : this->plastic())
@@ -52,8 +52,8 @@ void MpmSolver::load(const Checkpoint& from) {
     from.get("mpm.wall_force", wall_force);
     from.get("mpm.scalars", scalars);
     from.get("mpm.plastic", plastic);
-    if (q.size() != q_.size() || v.size() != q_.size() || velocity.size() != grains_.size() || box.size() != 4 ||
-        wall_force.size() != 4 || scalars.size() != 7 ||
+    if (q.size() != q_.size() || v.size() != q_.size() || velocity.size() != grains_.size() ||
+        box.size() != 4 || wall_force.size() != 4 || scalars.size() != 7 ||
         plastic.size() != numbers_of_a_state * this->plastic().size())
         throw InputError(
             "checkpoint: its grains are not those of this scenario; use the same scenario, packing and "

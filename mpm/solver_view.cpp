@@ -55,8 +55,7 @@ GrainView MpmSolver::view(Need need) {
     if (wants(need, Need::contacts)) {
         contact_ = motion_ && motion_->common_grid()
                        ? motion_->common_grid()->grain_contacts()
-                       : sum_grain_contacts(grains_, surfaces(), contacts(),
-                                      friction().sliders());
+                       : sum_grain_contacts(grains_, surfaces(), contacts(), friction().sliders());
         view.contacts = contact_;
     }
     if (wants(need, Need::stress)) {
@@ -157,8 +156,7 @@ void MpmSolver::view_parts(GrainView& view) {
     view.parts.fields = {{"von_mises_stress", "N/m", 1, von_mises_},
                          {"pressure", "N/m", 1, pressure_},
                          {"F", "1", 4, part_deformation_}};
-    if (!plastic().empty())
-        view.parts.fields.push_back({"plastic_strain", "1", 1, plastic_strain_});
+    if (!plastic().empty()) view.parts.fields.push_back({"plastic_strain", "1", 1, plastic_strain_});
 }
 
 /// Of grains that remember: without what flow has dissipated.

@@ -20,8 +20,8 @@ struct CurvePlace {
 
 /// control [n >= 3] counter-clockwise.
 std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p);
-/// The same for a point near one whose nearest control is known: goes along the curve as long as it comes nearer,
-/// and looks everywhere only if the point turns out to lie deep inside.
+/// The same for a point near one whose nearest control is known: goes along the curve as long as it comes
+/// nearer, and looks everywhere only if the point turns out to lie deep inside.
 std::size_t nearest_control(std::span<const Vec2> control, const Vec2& p, std::size_t known);
 
 /// Whether p lies farther out than `gap`, as far as its nearest control point tells.

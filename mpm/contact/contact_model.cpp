@@ -96,15 +96,17 @@ Touch ContactModel::touch(std::size_t p, const Vec2& moved) const {
     const Slider& slider = point.slider;
     const double pull = slider.trial + slider.stiffness * point.tangent.dot(moved);
     const bool holds = slider.stiffness == 0.0 || (slider.most > 0.0 && std::abs(pull) <= slider.most);
-    return {point.gap + point.normal.dot(moved) < 0.0, static_cast<signed char>(holds ? 0 : pull > 0.0 ? 1 : -1)};
+    return {point.gap + point.normal.dot(moved) < 0.0, static_cast<signed char>(holds        ? 0
+                                                                                : pull > 0.0 ? 1
+                                                                                             : -1)};
 }
 
 Vec2 ContactModel::force(std::size_t p, const Vec2& moved, Touch as) const {
     const Point& point = point_[p];
     const Slider& slider = point.slider;
     const double press = as.presses ? -point.stiffness * (point.gap + point.normal.dot(moved)) : 0.0;
-    const double pull = as.slides == 0 ? slider.trial + slider.stiffness * point.tangent.dot(moved)
-                                       : as.slides * slider.most;
+    const double pull =
+        as.slides == 0 ? slider.trial + slider.stiffness * point.tangent.dot(moved) : as.slides * slider.most;
     return press * point.normal - pull * point.tangent;
 }
 

@@ -141,8 +141,8 @@ double Contacts::evaluate(const Surfaces& surfaces, const Box& box, std::span<Ve
     groups_.clear();
     for (std::size_t n = 0; n < near_.size(); ++n) {
         if (found_[n].empty()) continue;
-        groups_.push_back({near_[n].i, near_[n].j, static_cast<int>(points_.size()),
-                           static_cast<int>(found_[n].size())});
+        groups_.push_back(
+            {near_[n].i, near_[n].j, static_cast<int>(points_.size()), static_cast<int>(found_[n].size())});
         points_.insert(points_.end(), found_[n].begin(), found_[n].end());
     }
     energy_ = 0.0;

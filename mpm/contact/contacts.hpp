@@ -76,8 +76,8 @@ class Contacts {
     NeighborList pairs_;
     std::vector<Vec2> center_;
     std::vector<double> reach_;
-    std::vector<Vec2> low_, high_;  ///< corners around each grain
-    std::vector<Pair> near_;                         ///< sorted by (i, j), walls first
+    std::vector<Vec2> low_, high_;                  ///< corners around each grain
+    std::vector<Pair> near_;                        ///< sorted by (i, j), walls first
     std::vector<std::vector<PointContact>> found_;  ///< [near]
     std::vector<PointContact> points_;
     std::vector<ContactGroup> groups_;

@@ -29,10 +29,9 @@ void Friction::begin(const Surfaces& surfaces) {
 }
 
 double Friction::force_of_spring(const PointContact& c) const {
-    const auto at = std::lower_bound(springs_.begin(), springs_.end(), key(c.i, c.point, c.j),
-                                     [](const FrictionSpring& s, const auto& wanted) {
-                                         return key(s.i, s.point, s.j) < wanted;
-                                     });
+    const auto at = std::lower_bound(
+        springs_.begin(), springs_.end(), key(c.i, c.point, c.j),
+        [](const FrictionSpring& s, const auto& wanted) { return key(s.i, s.point, s.j) < wanted; });
     const bool found = at != springs_.end() && key(at->i, at->point, at->j) == key(c.i, c.point, c.j);
     return found ? at->force : 0.0;
 }
@@ -125,7 +124,8 @@ void Friction::load(const Checkpoint& from) {
         throw InputError("checkpoint: springs of friction without their places; it is broken");
     springs_.clear();
     for (std::size_t k = 0; 2 * k < value.size(); ++k)
-        springs_.push_back({place[3 * k], place[3 * k + 1], place[3 * k + 2], value[2 * k], value[2 * k + 1]});
+        springs_.push_back(
+            {place[3 * k], place[3 * k + 1], place[3 * k + 2], value[2 * k], value[2 * k + 1]});
 }
 
 }  // namespace softgrain::mpm

@@ -16,8 +16,8 @@ struct Slider {
     double most = 0.0;       ///< friction coefficient times normal force [N]
     double stiffness = 0.0;  ///< along the surface, 0: no friction [N/m]
     double coefficient = 0.0;
-    double start = 0.0;      ///< when the step began [N]
-    double trial = 0.0;      ///< start + stiffness * slip [N]
+    double start = 0.0;  ///< when the step began [N]
+    double trial = 0.0;  ///< start + stiffness * slip [N]
 
     /// Against the slip of i along the tangent [N].
     double force() const { return std::clamp(trial, -most, most); }

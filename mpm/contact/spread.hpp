@@ -13,7 +13,8 @@ inline void spread_on_contact(const Grains& grains, const PointContact& c, const
                               std::span<Vec2> force) {
     const ReferenceDisc& disc = *grains.disc;
     const auto add = [&](const ShapeRows& rows, int row, int grain, const Vec2& what) {
-        const auto r = static_cast<std::size_t>(row), first = static_cast<std::size_t>(grain) * grains.nodes();
+        const auto r = static_cast<std::size_t>(row),
+                   first = static_cast<std::size_t>(grain) * grains.nodes();
         for (std::size_t k = 0; k < rows.nodes(r).size(); ++k)
             force[first + static_cast<std::size_t>(rows.nodes(r)[k])] += rows.values(r)[k] * what;
     };

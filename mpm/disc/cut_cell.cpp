@@ -9,7 +9,7 @@ namespace {
 
 constexpr double gauss = 0.57735026918962576451;  // 1/sqrt(3)
 constexpr double same_direction = 1e-9;
-constexpr double smallest_share = 1e-12;          // of the rectangle, below which a piece is nothing
+constexpr double smallest_share = 1e-12;  // of the rectangle, below which a piece is nothing
 
 /// Heights between which the line at x lies in rectangle and disc.
 std::array<double, 2> heights(double x, double low, double high) {

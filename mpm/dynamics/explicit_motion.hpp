@@ -23,7 +23,7 @@ namespace softgrain::mpm {
 struct ExplicitSettings {
     double penalty = 200.0;                      ///< contact stiffness [modulus / grid spacing]
     double friction = 0.0, wall_friction = 0.0;  ///< Coulomb coefficients, of surfaces
-    double damping = 0.0;                        ///< of deformation: force / momentum against the rigid motion [1/s]
+    double damping = 0.0;         ///< of deformation: force / momentum against the rigid motion [1/s]
     Vec2 gravity = Vec2::Zero();  ///< [m/s^2]
     bool mean_dilatation = false;
     double safety = 0.8;                                 ///< time step / largest stable one
@@ -32,8 +32,8 @@ struct ExplicitSettings {
 
 /// Leap-frog: M dv/dt = -dU/dq. Velocities are kept at whole steps, as means of those half a step before and
 /// after, so that the time step may change. After each step damping takes its share of what a grain's
-/// velocities differ by from their rigid motion: momentum and angular momentum stay. On the common grid velocities are those of half a step before: contacts make
-/// them jump.
+/// velocities differ by from their rigid motion: momentum and angular momentum stay. On the common grid
+/// velocities are those of half a step before: contacts make them jump.
 class ExplicitMotion {
   public:
     ExplicitMotion(Grains& grains, const ExplicitSettings& settings);

@@ -18,7 +18,8 @@ void find_lower_product(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterS
     const Eigen::Index count = last - first, below = A.rows() - last;
     const auto own = A.middleRows(first, count);
     C.block(first, first, count, count).triangularView<Eigen::Lower>() = -1.0 * own * own.transpose();
-    if (below > 0) C.block(last, first, below, count).noalias() = -1.0 * A.bottomRows(below) * own.transpose();
+    if (below > 0)
+        C.block(last, first, below, count).noalias() = -1.0 * A.bottomRows(below) * own.transpose();
 }
 
 }  // namespace softgrain::mpm

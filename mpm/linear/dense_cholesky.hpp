@@ -6,8 +6,8 @@ namespace softgrain::mpm {
 
 using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-/// Factors [rows x columns], columns <= rows, in place: its lower triangle and what is below. False if it is not
-/// positive definite.
+/// Factors [rows x columns], columns <= rows, in place: its lower triangle and what is below. False if it is
+/// not positive definite.
 bool factor_columns(Strided A);
 
 /// Columns [first, last) of the lower triangle of -A A^T.

@@ -103,7 +103,8 @@ bool Front::reduce(bool shared) {
     // The same panels for any number of threads.
 #pragma omp taskloop grainsize(1) if (shared)
     for (Eigen::Index first = 0; first < index(r); first += shared_columns)
-        find_lower_product(columns.bottomRows(index(r)), left, first, std::min(index(r), first + shared_columns));
+        find_lower_product(columns.bottomRows(index(r)), left, first,
+                           std::min(index(r), first + shared_columns));
     return true;
 }
 

@@ -24,11 +24,11 @@ struct Bands {
     double loading_time;           ///< to compress by `squeeze` quasi-statically [R sqrt(rho / stress scale)]
     double servo_pressure;         ///< that servo-control is tried at [stress scale]
     double servo_inertial_number;  ///< of the walls then
-    double servo_waves;            ///< time for each step of pressure [width / sqrt(stress scale / rho)]; 0: none
-    double first_kick;             ///< of a run, by gravity [steps]
-    double fall;                   ///< relative error of the way of a free fall
-    double weight;                 ///< relative error of the mean force and stress of a column at rest
-    double trembling;              ///< the same of a single step; 1: says nothing
+    double servo_waves;  ///< time for each step of pressure [width / sqrt(stress scale / rho)]; 0: none
+    double first_kick;   ///< of a run, by gravity [steps]
+    double fall;         ///< relative error of the way of a free fall
+    double weight;       ///< relative error of the mean force and stress of a column at rest
+    double trembling;    ///< the same of a single step; 1: says nothing
     double cell =
         0.0;  ///< periodic cell: relative difference of stress by another choice of its edges; 0: none
 };

@@ -72,9 +72,9 @@ TEST_P(Contract, MomentumComesFromTheWalls) {
         Vec2 momentum = Vec2::Zero();
         for (std::size_t g = 0; g < view.size(); ++g) momentum += view.mass[g] * view.velocity[g];
         largest = std::max(largest, momentum.norm());
-        error = std::max(error, std::min({(momentum - implicit).norm(), (momentum - explicit_).norm(),
-                                          (momentum - centred).norm(),
-                                          (momentum - 0.5 * (explicit_ + implicit)).norm()}));
+        error = std::max(
+            error, std::min({(momentum - implicit).norm(), (momentum - explicit_).norm(),
+                             (momentum - centred).norm(), (momentum - 0.5 * (explicit_ + implicit)).norm()}));
     });
     ASSERT_GT(largest, 0.0);
     EXPECT_LE(error, 1e-10 * largest);

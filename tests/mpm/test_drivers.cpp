@@ -1,4 +1,5 @@
-// What holds whichever way grains are moved: restarts, threads, looking, ledgers; and contact on the common grid.
+// What holds whichever way grains are moved: restarts, threads, looking, ledgers; and contact on the common
+// grid.
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
@@ -54,18 +55,17 @@ class Drivers : public ::testing::TestWithParam<Driver> {
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Mpm, Drivers,
-    ::testing::Values(
-        // By construction of the ledger, to rounding.
-        Driver{"quasi_static", "quasi_static", "surface", 0.0, 0.0, 1e-10},
-        Driver{"quasi_static_plastic", "quasi_static", "surface", 0.0, 0.02, 1e-10},
-        Driver{"implicit", "implicit", "surface", 0.5, 0.0, 1e-10},
-        // Of leap-frog, and of contacts that open and close in a step.
-        Driver{"explicit_rubbing", "explicit", "surface", 0.5, 0.0, 0.01},
-        Driver{"explicit_plastic", "explicit", "surface", 0.3, 0.02, 0.02},
-        Driver{"common_grid", "explicit", "common_grid", 0.3, 0.0, 0.06}),
-    [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Mpm, Drivers,
+                         ::testing::Values(
+                             // By construction of the ledger, to rounding.
+                             Driver{"quasi_static", "quasi_static", "surface", 0.0, 0.0, 1e-10},
+                             Driver{"quasi_static_plastic", "quasi_static", "surface", 0.0, 0.02, 1e-10},
+                             Driver{"implicit", "implicit", "surface", 0.5, 0.0, 1e-10},
+                             // Of leap-frog, and of contacts that open and close in a step.
+                             Driver{"explicit_rubbing", "explicit", "surface", 0.5, 0.0, 0.01},
+                             Driver{"explicit_plastic", "explicit", "surface", 0.3, 0.02, 0.02},
+                             Driver{"common_grid", "explicit", "common_grid", 0.3, 0.0, 0.06}),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_P(Drivers, ARestartedRunHasTheSameBits) {
     expect_restart_keeps_bits([&] { return make(); },
@@ -74,10 +74,11 @@ TEST_P(Drivers, ARestartedRunHasTheSameBits) {
 }
 
 TEST_P(Drivers, TwoThreadsGiveTheBitsOfOne) {
-    expect_threads_keep_bits([&] { return make(); }, {1, 2}, [&](Solver& solver) {
-        squeeze(solver, packing().box, 12);
-        solver.view(Need::all | Need::parts);
-    });
+    expect_threads_keep_bits([&] { return make(); }, {1, 2},
+                             [&](Solver& solver) {
+                                 squeeze(solver, packing().box, 12);
+                                 solver.view(Need::all | Need::parts);
+                             });
 }
 
 TEST_P(Drivers, LookingChangesNothing) {
@@ -141,7 +142,8 @@ TEST(CommonGrid, IsRefusedByImplicitDrivers) {
     EXPECT_THROW((void)method().make(scenario, test::one_grain(true)), InputError);
 }
 
-/// Two walls at each step shut by a tenth of the box, far more than a step should be: smaller ones are made of it.
+/// Two walls at each step shut by a tenth of the box, far more than a step should be: smaller ones are made
+/// of it.
 TEST(HardCases, AWallStepThatIsTooLargeIsDivided) {
     for (const char* driver : {"quasi_static", "implicit", "explicit"}) {
         Scenario scenario = test::scenario_with(0.3, 8);

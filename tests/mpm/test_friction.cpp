@@ -101,7 +101,8 @@ TEST(Friction, DissipatesWhatItIsWorkedOnAndDoesNotStore) {
     const double stored = scene.friction.stored();
     scene.packing.box = Box{{-9.0, 19.0, -9.0, 19.0}};
     for (std::size_t g = 0; g < scene.packing.grains.size(); ++g)
-        for (Vec2& x : scene.packing.grains.of(scene.packing.q, g)) x += static_cast<double>(g) * Vec2{5.0, 0.0};
+        for (Vec2& x : scene.packing.grains.of(scene.packing.q, g))
+            x += static_cast<double>(g) * Vec2{5.0, 0.0};
     scene.evaluate_contacts();
     scene.friction.lag(scene.contacts);
     scene.evaluate(scene.packing.q);

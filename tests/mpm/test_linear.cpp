@@ -400,10 +400,10 @@ TEST(FrontSolver, FewChangedSpringsAreACorrection) {
         EXPECT_LT(difference(solve(front, b), right), same) << count;
     }
     // Only less, only more.
-    const auto pressing = static_cast<std::size_t>(
-        std::ranges::find(factored, true, &Touch::presses) - factored.begin());
-    const auto loose = static_cast<std::size_t>(
-        std::ranges::find(factored, false, &Touch::presses) - factored.begin());
+    const auto pressing =
+        static_cast<std::size_t>(std::ranges::find(factored, true, &Touch::presses) - factored.begin());
+    const auto loose =
+        static_cast<std::size_t>(std::ranges::find(factored, false, &Touch::presses) - factored.begin());
     for (const std::size_t point : {pressing, loose}) {
         problem.active = factored;
         problem.active[point].presses = !problem.active[point].presses;
@@ -418,8 +418,8 @@ TEST(FrontSolver, FewChangedSpringsAreACorrection) {
     ASSERT_TRUE(front.factor_contacts(problem.K));
     SparseSolver sparse(grains);
     EXPECT_LT(difference(solve(front, b), solution(sparse, problem.K, b)), same);
-    problem.model.find_changes(std::vector<Touch>(factored.size()), std::vector<Touch>(factored.size(), Touch{true}),
-                               changes);
+    problem.model.find_changes(std::vector<Touch>(factored.size()),
+                               std::vector<Touch>(factored.size(), Touch{true}), changes);
     EXPECT_FALSE(front.change_contacts(changes));
 }
 

@@ -28,13 +28,15 @@ TEST(Friction, ADiscRollsOrSlidesDownAPlane) {
         const int steps = 60;
         for (int k = 0; k < steps; ++k) solver->advance(still, dt);
         const GrainView view = solver->view(Need::all);
-        const double expected =
-            mu > std::tan(angle) / 3.0 ? 2.0 / 3.0 * g * std::sin(angle) : g * (std::sin(angle) - mu * std::cos(angle));
+        const double expected = mu > std::tan(angle) / 3.0 ? 2.0 / 3.0 * g * std::sin(angle)
+                                                           : g * (std::sin(angle) - mu * std::cos(angle));
         const double t = steps * dt;
         // Euler's implicit method: t (t + dt) / 2. Its weight flattens it by about 1e-4 R.
-        EXPECT_NEAR(view.centroid[0].x() - 1.0, expected * t * (t + dt) / 2.0, 0.01 * expected * t * t / 2.0) << mu;
+        EXPECT_NEAR(view.centroid[0].x() - 1.0, expected * t * (t + dt) / 2.0, 0.01 * expected * t * t / 2.0)
+            << mu;
         ASSERT_EQ(view.contacts.size(), 1U);
-        const double normal = view.contacts[0].normal_force(), tangential = std::abs(view.contacts[0].force.x());
+        const double normal = view.contacts[0].normal_force(),
+                     tangential = std::abs(view.contacts[0].force.x());
         EXPECT_NEAR(normal, view.mass[0] * g * std::cos(angle), 0.05 * normal);
         EXPECT_LE(tangential, mu * normal * (1.0 + 1e-3));
         // What friction takes: nothing while it rolls.
