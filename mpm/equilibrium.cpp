@@ -75,11 +75,6 @@ Equilibrium::Equilibrium(Grains& grains, const EquilibriumSettings& settings,
     }
 }
 
-std::span<const PlasticState> Equilibrium::plastic_of(std::size_t g) const {
-    if (plastic.empty()) return {};
-    return {plastic.data() + g * grains_.points(), grains_.points()};
-}
-
 void Equilibrium::set_inertia(std::span<const Vec2> to, double dt) {
     drift_.assign(to.begin(), to.end());
     per_dt2_ = 1.0 / (dt * dt);
@@ -94,7 +89,8 @@ double Equilibrium::evaluate(std::span<const Vec2> q, const Box& box, std::span<
         GrainForces& work = work_[static_cast<std::size_t>(omp_get_thread_num())];
         const std::span<Vec2> own = force.subspan(g * nodes, nodes);
         std::fill(own.begin(), own.end(), Vec2::Zero());
-        energy[g] = work.evaluate(grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), own, {});
+        energy[g] = work.evaluate(grains_.grain[g], q.subspan(g * nodes, nodes),
+                                  grains_.of_points(plastic, g), own, {});
         for (const Vec2& f : own) largest[g] = std::max(largest[g], f.cwiseAbs().maxCoeff());
         if (per_dt2_ > 0.0) height[g] += add_inertia(g, q, own);
         for (std::size_t m = 0; falls && m < nodes; ++m) {
@@ -157,7 +153,7 @@ void Equilibrium::find_grain_stiffness(std::span<const Vec2> q) {
         for (std::size_t g = 0; g < grains_.size(); ++g) {
             const std::span<Mat2> own{stiffness_.grain.data() + g * places, places};
             work_[static_cast<std::size_t>(omp_get_thread_num())].evaluate(
-                grains_.grain[g], q.subspan(g * nodes, nodes), plastic_of(g), unused, own);
+                grains_.grain[g], q.subspan(g * nodes, nodes), grains_.of_points(plastic, g), unused, own);
             const double scale = grains_.grain[g].density * grains_.grain[g].area * per_dt2_;
             for (std::size_t k = 0; scale > 0.0 && k < places; ++k)
                 own[k].diagonal().array() += scale * mass_.in_pattern()[k];

@@ -63,7 +63,6 @@ class Equilibrium {
 
     /// Plastic states of the last step [grains * points], or empty.
     std::vector<PlasticState> plastic;
-    std::span<const PlasticState> plastic_of(std::size_t g) const;
 
   private:
     /// A try of Newton's method.

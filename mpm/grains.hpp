@@ -19,7 +19,15 @@ struct Grain {
     double radius;       ///< of the disc of its area [m]
     double density;      ///< [kg/m^2]
     double modulus;      ///< E/(1 - nu^2) [N/m]
+
+    double compliance() const { return radius / modulus; }
 };
+
+/// Spring of two surfaces, by their length in the undeformed grain [N/m^2]: `penalty` times the modulus over
+/// the grid spacing, mean of both grains.
+inline double contact_stiffness(double penalty, double spacing, double compliance, double other_compliance) {
+    return 2.0 * penalty / (spacing * (compliance + other_compliance));
+}
 
 /// All grains share one reference disc. Nodes of grain g are [g * nodes, (g + 1) * nodes).
 struct Grains {
@@ -46,6 +54,16 @@ struct Grains {
     template <class T>
     std::span<const T> of(const std::vector<T>& values, std::size_t g) const {
         return {values.data() + g * nodes(), nodes()};
+    }
+    /// Of values by material points, or of none.
+    template <class T>
+    std::span<T> of_points(std::vector<T>& values, std::size_t g) const {
+        return values.empty() ? std::span<T>{} : std::span<T>{values.data() + g * points(), points()};
+    }
+    template <class T>
+    std::span<const T> of_points(const std::vector<T>& values, std::size_t g) const {
+        return values.empty() ? std::span<const T>{}
+                              : std::span<const T>{values.data() + g * points(), points()};
     }
 };
 

@@ -99,11 +99,6 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
         }
 }
 
-std::span<const PlasticState> MpmSolver::plastic_of(std::size_t g) const {
-    if (plastic().empty()) return {};
-    return {plastic().data() + g * grains_.points(), grains_.points()};
-}
-
 void MpmSolver::advance(const WallMotion& walls, double dt) {
     box_ = walls.box;
     check_room(walls.after(dt), dt);
@@ -257,9 +252,8 @@ void MpmSolver::find_centroids() {
 void MpmSolver::flow() {
     if (equilibrium_->plastic.empty()) return;
     for (std::size_t g = 0; g < grains_.size(); ++g)
-        grains_.grain[g].law->flow(
-            forces_->deformation(grains_.grain[g], grains_.of(q_, g)),
-            std::span(equilibrium_->plastic).subspan(g * grains_.points(), grains_.points()));
+        grains_.grain[g].law->flow(forces_->deformation(grains_.grain[g], grains_.of(q_, g)),
+                                   grains_.of_points(equilibrium_->plastic, g));
 }
 
 /// Energy, forces and contacts of the state as it is.

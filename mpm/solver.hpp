@@ -60,7 +60,6 @@ class MpmSolver final : public Solver {
     const Surfaces& surfaces() const { return motion_ ? motion_->surfaces() : equilibrium_->surfaces(); }
     const Friction& friction() const { return motion_ ? motion_->friction() : equilibrium_->friction(); }
     std::vector<PlasticState>& plastic() const { return motion_ ? motion_->plastic : equilibrium_->plastic; }
-    std::span<const PlasticState> plastic_of(std::size_t g) const;
     /// From the box as it is to another, in dt. False, and nothing has changed, if no equilibrium was found.
     bool move_walls(const Box& to, double dt, EquilibriumResult& result);
     /// Throws DivergedError if the grains could not be in it.

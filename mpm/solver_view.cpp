@@ -99,7 +99,7 @@ void MpmSolver::view_stress() {
     std::vector<Vec2> unused(grains_.nodes(), Vec2::Zero());
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
-        forces_->evaluate(grain, grains_.of(q_, g), plastic_of(g), unused, {});
+        forces_->evaluate(grain, grains_.of(q_, g), grains_.of_points(plastic(), g), unused, {});
         for (std::size_t p = 0; p < grains_.points(); ++p) {
             const Vec4& P = forces_->stress()[p];
             const Mat2 stress = (Mat2() << P[0], P[1], P[2], P[3]).finished();
@@ -131,7 +131,7 @@ void MpmSolver::view_parts(GrainView& view) {
     std::vector<Vec2> unused(grains_.nodes(), Vec2::Zero());
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
-        forces_->evaluate(grain, grains_.of(q_, g), plastic_of(g), unused, {});
+        forces_->evaluate(grain, grains_.of(q_, g), grains_.of_points(plastic(), g), unused, {});
         for (std::size_t p = 0; p < points; ++p) {
             const std::size_t k = g * points + p;
             part_position_[k] = grains_.disc->at_points.at(p, grains_.of(q_, g));
@@ -165,7 +165,7 @@ double MpmSolver::stored_energy() {
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Grain& grain = grains_.grain[g];
         const auto F = forces_->deformation(grain, grains_.of(q_, g));
-        const auto state = plastic_of(g);
+        const auto state = grains_.of_points(plastic(), g);
         sum += forces_->volumetric_energy(grain);
         for (std::size_t p = 0; p < F.size(); ++p)
             sum += grains_.disc->weight[p] * grain.area * grain.law->stored(F[p], state[p]);

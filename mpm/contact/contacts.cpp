@@ -58,11 +58,6 @@ void Contacts::watch(const Surfaces& surfaces) {
         pairs_.build(center_, reach_, skin * mean_radius());
 }
 
-double Contacts::stiffness_per_length(const Grain& a, const Grain& b) const {
-    const double h = grains_.disc->spacing();
-    return 2.0 * penalty_ / (h * (a.radius / a.modulus + b.radius / b.modulus));
-}
-
 void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t j, double length,
                            std::vector<PointContact>& out) const {
     const auto points = surfaces.points_of(grains_, i);
@@ -79,8 +74,10 @@ void Contacts::find_points(const Surfaces& surfaces, std::size_t i, std::size_t 
         if (is_far_outside(controls, x, *nearest, near_gap_)) continue;
         const CurvePlace place = closest_place(controls, x, *nearest);
         if (place.gap >= near_gap_) continue;
-        out.push_back({static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
-                       length * stiffness_per_length(grains_.grain[i], grains_.grain[j])});
+        out.push_back(
+            {static_cast<int>(i), static_cast<int>(k), static_cast<int>(j), place,
+             length * contact_stiffness(penalty_, grains_.disc->spacing(), grains_.grain[i].compliance(),
+                                        grains_.grain[j].compliance())});
     }
 }
 
@@ -97,7 +94,8 @@ void Contacts::find_wall_points(const Surfaces& surfaces, const Box& box, std::s
         place.normal = wall_normal(wall);
         place.tangent = perpendicular(place.normal);
         out.push_back({static_cast<int>(i), static_cast<int>(k), -1 - wall, place,
-                       length * stiffness_per_length(grain, grain)});
+                       length * contact_stiffness(penalty_, grains_.disc->spacing(), grain.compliance(),
+                                                  grain.compliance())});
     }
 }
 

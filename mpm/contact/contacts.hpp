@@ -68,7 +68,6 @@ class Contacts {
     void find_wall_points(const Surfaces& surfaces, const Box& box, std::size_t i, int wall,
                           std::vector<PointContact>& out) const;
     double mean_radius() const;
-    double stiffness_per_length(const Grain& a, const Grain& b) const;
 
     const Grains& grains_;
     double penalty_;

@@ -33,11 +33,6 @@ ExplicitMotion::ExplicitMotion(Grains& grains, const ExplicitSettings& settings)
         plastic.resize(grains.size() * grains.points());
 }
 
-std::span<PlasticState> ExplicitMotion::plastic_of(std::size_t g) {
-    if (plastic.empty()) return {};
-    return {plastic.data() + g * grains_.points(), grains_.points()};
-}
-
 double ExplicitMotion::dissipated_by_flow(std::size_t g) const {
     if (plastic.empty()) return 0.0;
     const PlasticState* state = plastic.data() + g * grains_.points();
@@ -149,14 +144,14 @@ void ExplicitMotion::evaluate_grain(std::size_t g, std::span<const Vec2> q, bool
     GrainForces& work = work_[static_cast<std::size_t>(omp_get_thread_num())];
     const std::span<Vec2> force = grains_.of(force_, g);
     std::ranges::fill(force, Vec2::Zero());
-    const double energy =
-        work.evaluate(grain, q.subspan(g * grains_.nodes(), grains_.nodes()), plastic_of(g), force, {});
+    const double energy = work.evaluate(grain, q.subspan(g * grains_.nodes(), grains_.nodes()),
+                                        grains_.of_points(plastic, g), force, {});
     elastic_[g] = energy;
     if (!std::isfinite(energy)) return;
     if (flows && !plastic.empty()) {
         // The energy of a plastic law is with what it dissipates.
         const double before = dissipated_by_flow(g);
-        grain.law->flow(work.deformation(), plastic_of(g));
+        grain.law->flow(work.deformation(), grains_.of_points(plastic, g));
         elastic_[g] -= dissipated_by_flow(g) - before;
     }
     if (looks) fastest_.look_at(g, work.deformation());

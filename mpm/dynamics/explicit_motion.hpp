@@ -83,7 +83,6 @@ class ExplicitMotion {
     void damp(std::span<const Vec2> q, std::span<Vec2> v, double dt);
     double kinetic_energy(std::span<const Vec2> v) const;
     double dissipated_by_flow(std::size_t g) const;
-    std::span<PlasticState> plastic_of(std::size_t g);
 
     Grains& grains_;
     ThreadChoice threads_;

@@ -35,11 +35,11 @@ FastestMode::FastestMode(const Grains& grains, const Mass& mass, double penalty,
       deformation_(grains.size() * grains.disc->cell.size()),
       marked_(grains.size()) {
     double softest = std::numeric_limits<double>::infinity();
-    for (const Grain& grain : grains.grain) softest = std::min(softest, grain.radius / grain.modulus);
+    for (const Grain& grain : grains.grain) softest = std::min(softest, grain.compliance());
     const double h = grains.disc->spacing();
     for (const Grain& grain : grains.grain) {
-        const double own = grain.radius / grain.modulus;
-        const double wall = penalty / (h * own), other = 4.0 * penalty / (h * (own + softest));
+        const double own = grain.compliance(), wall = contact_stiffness(penalty, h, own, own),
+                     other = 2.0 * contact_stiffness(penalty, h, own, softest);
         contact_.push_back(grain.radius * (grains.size() > 1 ? std::max(wall, other) : wall));
     }
     mode_.reserve(grains.all_nodes());
