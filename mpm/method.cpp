@@ -43,13 +43,12 @@ std::span<const KeySpec> keys() {
          {"neo_hookean", "saint_venant_kirchhoff", "linear"}},
         {"driver",
          KeyType::text,
-         std::string("quasi_static"),
+         std::string("implicit"),
          "",
-         "\"quasi_static\" finds equilibria; \"implicit\" is dynamics by Euler's implicit method, for "
-         "friction; "
-         "\"explicit\" is dynamics by leap-frog",
+         "\"implicit\" is dynamics by Euler's implicit method; \"quasi_static\" finds equilibria, without "
+         "friction; \"explicit\" is dynamics by leap-frog",
          any_number,
-         {"quasi_static", "implicit", "explicit"}},
+         {"implicit", "quasi_static", "explicit"}},
         {"contact",
          KeyType::text,
          std::string("surface"),

@@ -18,11 +18,13 @@ inline Settings& settings(Scenario& scenario) {
     return scenario.method_settings.at("mpm");
 }
 
+/// Quasi-static.
 inline Scenario scenario_with(double nu, int points_across_radius) {
     Scenario scenario;
     scenario.material.poisson_ratio = nu;
     scenario.method_settings.emplace("mpm", Settings(method().keys()));
     settings(scenario).set("points_across_radius", std::int64_t{points_across_radius});
+    settings(scenario).set("driver", std::string("quasi_static"));
     return scenario;
 }
 
