@@ -41,7 +41,7 @@ make_beside_bpm() {
             printf "| mu = %s | %s | %s |" $friction "$(result packing-$friction steps)" "$(awk -v t="$(result packing-$friction cpu_time)" 'BEGIN { printf "%.0f", t / 60 }')"
             for phi in 0.750 0.800 0.890; do printf " %s |" "$(number %.2f "$(value "$made/packing_${friction}_by_phi.csv" $phi z)")"; done
             for phi in 0.800 0.890 0.950; do printf " %s |" "$(number %.4f "$(value "$made/packing_${friction}_by_phi.csv" $phi stress)")"; done
-            awk '{ printf " %.4f | %.3f | %.3f |\n", $1, $2, $3 }' "$runs/packing-$friction/fit"
+            awk '{ printf " %.4f | %.4f | %.3f |\n", $1, $2, $3 }' "$runs/packing-$friction/fit"
         done
     } | table packing
 
@@ -71,12 +71,12 @@ make_beside_bpm() {
     curve "BPM, mu = 0" "$of_bpm/packing_by_strain_after.csv" ratio packing_fraction '"colour": 1'
     curve "BPM, mu = 0.5" "$of_bpm/packing_friction_by_strain_after.csv" ratio packing_fraction '"colour": 1, "line": "dashed"'
     plot figure_11 "Fig. 11: pore filling" '"label": "vertical stress / sigma0", "min": 0' '"label": "packing fraction"' bottom_right
-    "$softgrain" render frames --run "MPM, mu = 0=$runs/packing-0" --run "MPM, mu = 0.5=$runs/packing-0.5" --at 0,0.46,0.76,1 --width 1600 --out "$made/pictures" >/dev/null
+    "$softgrain" render frames --run "frictionless=$runs/packing-0" --run "friction 0.5=$runs/packing-0.5" --at 0,0.46,0.76,1 --width 1600 --out "$made/pictures" >/dev/null
     mv "$made/pictures/sheet.png" "$made/figure_08.png"
     rm -r "$made/pictures"
-    row "6" "\`nezamabadi2017/single_grain.toml\`" "MPM linear, BPM a plateau" "the same" figure_06.png
+    row "6" "\`nezamabadi2017/single_grain.toml\`" "MPM linear, BPM a plateau" "the same kind: MPM stiffens, BPM yields" figure_06.png
     row "8" "\`nezamabadi2017/packing.toml\`, \`material.friction\` 0 and 0.5" "polygons, with gaps of a cell" "polygons without gaps" figure_08.png
     row "9" "the same" "phi alike with and without friction, Z higher without" "table below" figure_09_z.png figure_09_phi.png
-    row "10" "the same" "MPM linear in strain" "see the plot" figure_10.png
-    row "11" "the same" "phi linear in sigma/sigma0, slope 0.08" "slopes in the table below" figure_11.png
+    row "10" "the same" "MPM linear in strain" "not linear: surfaces that touch only where they meet stiffen from nothing" figure_10.png
+    row "11" "the same" "phi linear in sigma/sigma0, slope 0.08" "not linear, table below" figure_11.png
 }
