@@ -7,16 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 softgrain=${SOFTGRAIN:-build/release/bin/softgrain}
-quick=false keep=false out=""
-while [ $# -gt 0 ]; do
-    case $1 in
-    --quick) quick=true ;;
-    --keep) keep=true ;;
-    --out) out=$2 && shift ;;
-    *) echo "unknown option $1" >&2 && exit 2 ;;
-    esac
-    shift
-done
+. docs/figures/replicate/shared.sh
+read_options "$@"
 
 method=bpm gallery=nezamabadi2017
 seeds="1 2 3 4 5"
@@ -30,6 +22,5 @@ if $quick; then
 else
     out=${out:-results/replicate_bpm}
 fi
-. docs/figures/replicate/shared.sh
 open_folders
 make_figures "$here/nezamabadi2017"

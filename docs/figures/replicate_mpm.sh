@@ -8,21 +8,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 softgrain=${SOFTGRAIN:-build/release/bin/softgrain}
-quick=false keep=false out=""
-while [ $# -gt 0 ]; do
-    case $1 in
-    --quick) quick=true ;;
-    --keep) keep=true ;;
-    --out) out=$2 && shift ;;
-    *) echo "unknown option $1" >&2 && exit 2 ;;
-    esac
-    shift
-done
+. docs/figures/replicate/shared.sh
+read_options "$@"
 
 method=mpm gallery=nezamabadi2017_mpm
 figures="beside_bpm"
 document=docs/mpm_replicability.md
 out=${out:-results/replicate_mpm$($quick && echo _quick || true)}
-. docs/figures/replicate/shared.sh
 open_folders
 make_figures "$here/nezamabadi2017_mpm"

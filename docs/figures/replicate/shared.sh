@@ -2,6 +2,20 @@
 # $gallery holds the pictures of the document.
 here=docs/figures/replicate
 
+# read_options OPTION...: $quick, $keep and $out.
+read_options() {
+    quick=false keep=false out=""
+    while [ $# -gt 0 ]; do
+        case $1 in
+        --quick) quick=true ;;
+        --keep) keep=true ;;
+        --out) out=$2 && shift ;;
+        *) echo "unknown option $1" >&2 && exit 2 ;;
+        esac
+        shift
+    done
+}
+
 # simulate NAME SCENARIO [key=value...]: puts a run on the list.
 simulate() {
     local name=$1 scenario=$2 settings=""

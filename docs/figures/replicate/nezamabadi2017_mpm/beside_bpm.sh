@@ -14,10 +14,10 @@ plan_beside_bpm() {
     done
 }
 
-# bpm_in_moduli CSV COLUMN: BPM's table with a column in units of E instead of F0/<a0>.
+# bpm_in_moduli CSV COLUMN: BPM's table with a column and its range in units of E instead of F0/<a0>.
 bpm_in_moduli() {
     awk -F, -v OFS=, -v name="$2" -v factor=$(awk -v a=$attraction_stress -v e=$modulus 'BEGIN { print a / e }') '
-        NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i; print; next } { $c *= factor; print }' "$of_bpm/$1" >"$made/bpm_$1"
+        NR == 1 { for (i = 1; i <= NF; ++i) if (index($i, name) == 1) scaled[i]; print; next } { for (i in scaled) $i *= factor; print }' "$of_bpm/$1" >"$made/bpm_$1"
 }
 
 make_beside_bpm() {
@@ -74,7 +74,7 @@ make_beside_bpm() {
     "$softgrain" render frames --run "frictionless=$runs/packing-0" --run "friction 0.5=$runs/packing-0.5" --at 0,0.46,0.76,1 --width 1600 --out "$made/pictures" >/dev/null
     mv "$made/pictures/sheet.png" "$made/figure_08.png"
     rm -r "$made/pictures"
-    row "6" "\`nezamabadi2017/single_grain.toml\`" "MPM linear, BPM a plateau" "the same kind: MPM stiffens, BPM yields" figure_06.png
+    row "6" "\`nezamabadi2017/single_grain.toml\`" "MPM linear, BPM a plateau" "the same kind: MPM nearly linear, BPM a plateau" figure_06.png
     row "8" "\`nezamabadi2017/packing.toml\`, \`material.friction\` 0 and 0.5" "polygons, with gaps of a cell" "polygons without gaps" figure_08.png
     row "9" "the same" "phi alike with and without friction, Z higher without" "table below" figure_09_z.png figure_09_phi.png
     row "10" "the same" "MPM linear in strain" "not linear: surfaces that touch only where they meet stiffen from nothing" figure_10.png
