@@ -15,7 +15,7 @@
 namespace softgrain::mpm {
 namespace {
 
-constexpr double strain_rate = 2e-4;            // [sqrt(E/rho) / mean radius]
+constexpr double strain_rate = 2e-4;             // [sqrt(E/rho) / mean radius]
 constexpr double begin = 0.04, measured = 0.04;  // strains from jamming
 
 Scenario scenario_of(int grains, int points) {
@@ -67,7 +67,9 @@ int main(int argc, char** argv) {
     std::vector<int> grains{25, 50, 100, 200, 300};
     if (argc > 2) grains.clear();
     for (int k = 2; k < argc; ++k) grains.push_back(std::atoi(argv[k]));
-    fmt::print("| grains | unknowns | iterations | ms per iteration | us per iteration and grain |\n|--:|--:|--:|--:|--:|\n");
+    fmt::print(
+        "| grains | unknowns | iterations | ms per iteration | us per iteration and grain "
+        "|\n|--:|--:|--:|--:|--:|\n");
     for (const int count : grains) softgrain::mpm::measure(count, points);
     return 0;
 }
