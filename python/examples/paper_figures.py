@@ -13,7 +13,10 @@ from pathlib import Path
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.ticker import MaxNLocator
 
 import softgrain_reader as sg
 
@@ -40,13 +43,19 @@ def save(figure: matplotlib.figure.Figure, name: str) -> None:
     plt.close(figure)
 
 
+def loaded(run: sg.Run) -> pd.DataFrame:
+    """The history without what comes before the first contacts, where the stress is rounding."""
+    return run.history[run.history["mean_stress"] > 1e-4 * largest_stress]
+
+
+largest_stress = max(run.history["mean_stress"].max() for run in comparison.values())
+
 # %% Mean stress over packing fraction
 figure, axes = plt.subplots()
-largest = max(run.history["mean_stress"].max() for run in comparison.values())
 for method, run in comparison.items():
-    loaded = run.history[run.history["mean_stress"] > 1e-4 * largest]  # rounding before the first contact is no stress
-    axes.semilogy(loaded["packing_fraction"], loaded["mean_stress"], **line_of(method))
+    axes.semilogy(loaded(run)["packing_fraction"], loaded(run)["mean_stress"], **line_of(method))
 axes.set(xlabel=r"packing fraction $\phi$", ylabel=r"mean stress $\sigma$ [N/m]")
+axes.xaxis.set_major_locator(MaxNLocator(5))
 axes.legend()
 save(figure, "stress")
 
@@ -54,64 +63,71 @@ save(figure, "stress")
 figure, axes = plt.subplots()
 for method, run in comparison.items():
     axes.plot(run.history["packing_fraction"], run.history["coordination_number_no_rattlers"], **line_of(method))
-axes.set(xlabel=r"packing fraction $\phi$", ylabel="coordination number $Z$, without rattlers", ylim=(0, None))
+axes.set(xlabel=r"packing fraction $\phi$", ylabel="$Z$, without rattlers", ylim=(0, None))
+axes.xaxis.set_major_locator(MaxNLocator(5))
 axes.legend()
 save(figure, "coordination")
 
-# %% Distribution of normal forces, over all loaded frames: each force over the mean of its frame
+# %% Distribution of normal forces between grains: each over the mean of its frame, all loaded frames together
 figure, axes = plt.subplots()
-edges = np.arange(0.0, 4.01, 0.25)
+edges = np.arange(0.0, 5.01, 0.25)
 for method, run in comparison.items():
     scaled = []
     for frame in run.frames:
-        between = frame.contacts[~frame.contacts["is_wall"]]
-        forces = between["normal_force"][between["normal_force"] > 0]
-        if frame.history["mean_stress"] > 1e-2 * run.history["mean_stress"].max() and len(forces):
-            scaled.extend(forces / forces.mean())
+        if frame.history["mean_stress"] < 1e-2 * run.history["mean_stress"].max():
+            continue
+        forces = frame.contacts.query("not is_wall and normal_force > 0")["normal_force"]
+        scaled.extend(forces / forces.mean())
     counts, _ = np.histogram(scaled, edges)
-    density = counts / (max(len(scaled), 1) * np.diff(edges))
-    seen = counts > 0
-    axes.semilogy((edges[:-1] + edges[1:])[seen] / 2, density[seen], marker=LOOK[method][3], markersize=3,
-                  **line_of(method))
-axes.set(xlabel=r"normal force $f_n / \langle f_n \rangle$", ylabel="probability density", xlim=(0, 4))
-axes.legend()
+    enough = counts >= 5  # the scatter of fewer is as large as their number
+    density = counts[enough] / (max(len(scaled), 1) * np.diff(edges)[enough])
+    axes.semilogy((edges[:-1] + edges[1:])[enough] / 2, density, marker=LOOK[method][3], markersize=3,
+                  **line_of(method) | {"label": f"{LOOK[method][0]}, {len(scaled)} forces"})
+axes.set(xlabel=r"normal force $f_n / \langle f_n \rangle$", ylabel="probability density", xlim=(0, None),
+         ylim=(None, 1.2))
+axes.legend(loc="lower left")
 save(figure, "force_distribution")
 
 # %% Stress over strain, along x and y
 figure, axes = plt.subplots()
 for method, run in comparison.items():
-    strain = 100 * run.history["axial_strain"]
-    axes.plot(strain, run.history["stress_xx"], **line_of(method))
-    axes.plot(strain, run.history["stress_yy"], **{**line_of(method), "label": None}, alpha=0.45)
-axes.set(xlabel="axial strain [%]", ylabel=r"stress [N/m]: $\sigma_{xx}$ dark, $\sigma_{yy}$ pale", xlim=(0, None))
-axes.legend()
+    strain = 100 * loaded(run)["axial_strain"]
+    axes.semilogy(strain, loaded(run)["stress_xx"], **line_of(method))
+    axes.semilogy(strain, loaded(run)["stress_yy"], **line_of(method) | {"label": None}, linewidth=0.5)
+axes.set(xlabel="axial strain [%]", ylabel=r"stress [N/m], $\sigma_{xx}$ thick, $\sigma_{yy}$ thin", xlim=(0, None))
+axes.legend(loc="lower right")
 save(figure, "stress_strain")
 
-# %% Grains at equal packing fraction: outlines coloured by mean stress, force chains on top
+# %% Grains at equal packing fraction: outlines coloured by mean stress, forces between grains as lines
+# whose width is the force over the mean of its frame.
+COLOURS = ListedColormap(matplotlib.colormaps["YlOrBr"](np.linspace(0.0, 0.75, 256)))  # light enough for black lines
 reached = {method: run.history["packing_fraction"].max() for method, run in comparison.items()}
-stages = np.linspace(min(reached.values()), max(reached.values()), 2)
-figure, grid = plt.subplots(len(stages), len(comparison), figsize=(6.9, 1.95 * len(stages)), squeeze=False)
-frames = [[run.frames.nearest(phi) for run in comparison.values()] for phi in stages]
-top_stress = np.percentile(np.concatenate([f.grains["mean_stress"] for row in frames for f in row]), 98)
-top_force = np.percentile(np.concatenate([f.contacts["normal_force"] for row in frames for f in row]), 98)
-for row, phi, axes_row in zip(frames, stages, grid):
-    for frame, method, axes in zip(row, comparison, axes_row):
-        walls, contacts = frame.walls, frame.contacts
+stages = np.unique([min(reached.values()), max(reached.values())])
+figure, grid = plt.subplots(len(stages), len(comparison), figsize=(6.9, 1.75 * len(stages)), squeeze=False)
+for phi, axes_row in zip(stages, grid):
+    frames = {method: run.frames.nearest(phi) for method, run in comparison.items() if reached[method] > phi - 0.02}
+    top_stress = np.percentile(np.concatenate([frame.grains["mean_stress"] for frame in frames.values()]), 95)
+    for method, axes in zip(comparison, axes_row):
         axes.set_aspect("equal")
         axes.axis("off")
-        if reached[method] < phi - 0.02:
-            axes.set_title(f"{LOOK[method][0]} ends at {reached[method]:.3f}", fontsize=8)
+        if method not in frames:
+            axes.set_title(rf"{LOOK[method][0]} ends at $\phi$ = {reached[method]:.3f}", fontsize=8)
             continue
-        colours = PolyCollection(frame.outlines, array=frame.grains["mean_stress"], cmap="viridis",
-                                 clim=(0, top_stress), edgecolors="white", linewidths=0.3)
-        axes.add_collection(colours)
-        between = contacts[~contacts["is_wall"] & (contacts["normal_force"] > 0)]
-        centres = frame.grains[["x", "y"]].to_numpy()
-        ends = np.stack([centres[between["grain_i"]], between[["x", "y"]], centres[between["grain_j"]]], axis=1)
-        axes.add_collection(LineCollection(ends, colors="black", linewidths=2.5 * between["normal_force"] / top_force))
-        axes.add_collection(LineCollection(walls[["x0", "y0", "x1", "y1"]].to_numpy().reshape(-1, 2, 2),
-                                           colors="black", linewidths=0.8))
+        frame = frames[method]
+        colours = axes.add_collection(
+            PolyCollection(frame.outlines, array=frame.grains["mean_stress"], cmap=COLOURS, clim=(0, top_stress),
+                           edgecolors="0.4", linewidths=0.3))
+        walls = frame.walls[["x0", "y0", "x1", "y1"]].to_numpy().reshape(-1, 2, 2)
+        forces = frame.contacts.query("not is_wall and normal_force > 0")
+        centres, points = frame.grains[["x", "y"]].to_numpy(), forces[["x", "y"]].to_numpy()
+        ends = centres[forces["grain_j"]]
+        across = np.linalg.norm(ends - points, axis=1) > np.ptp(walls[:, :, 0]) / 2  # a periodic cell
+        ends[across] = points[across]
+        widths = 0.9 * forces["normal_force"] / forces["normal_force"].mean()
+        axes.add_collection(LineCollection(np.stack([centres[forces["grain_i"]], points, ends], axis=1),
+                                           colors="black", linewidths=widths, capstyle="round"))
+        axes.add_collection(LineCollection(walls, colors="black", linewidths=0.8))
         axes.autoscale()
         axes.set_title(rf"{LOOK[method][0]}, $\phi$ = {frame.packing_fraction:.3f}", fontsize=8)
-figure.colorbar(colours, ax=grid, label="mean stress of a grain [N/m]", extend="both", aspect=30, pad=0.01)
+    figure.colorbar(colours, ax=axes_row, label="mean stress [N/m]", extend="both", aspect=15, pad=0.01)
 save(figure, "grains")

@@ -35,9 +35,10 @@ class Frame:
         """A row per grain (index: its number): x, y [m] of its centroid, velocity, mass, areas, stress, mean_stress,
         deviatoric_stress, shape, and the method's own fields.
 
-        The centroid is that of the outline's area, which is within 2 % of the radius of the centre of mass (BPM's rough
-        outlines; within 0.1 % for the others), or the method's own where a run has no outlines. In a periodic cell
-        grains lie where they are drawn: each with its centroid in the cell.
+        The centroid is that of the outline's area; the centre of mass is up to 1.5 % of a radius away from it with BPM
+        (30 discs a grain), 1 % with SDEM and 0.4 % with MPM (at a packing fraction of 0.93), 0 with rigid DEM. Where a
+        run has no outlines, and in the measure `grains`, it is the method's own. In a periodic cell grains lie where
+        they are drawn: each with its centroid in the cell.
         """
         file = self._grain_file
         table = _table(file.cell_data, file.units).set_index("grain")
@@ -161,7 +162,7 @@ def frame_times(folder: Path) -> list[float]:
 def _table(arrays: dict[str, np.ndarray], units: dict[str, str]) -> pd.DataFrame:
     columns, column_units = {}, {}
     for name, values in arrays.items():
-        values = values.reshape(len(values), -1)
+        values = values[:, None] if values.ndim == 1 else values
         unit = "" if units.get(name) == "1" else units.get(name, "")
         for suffix, place in zip(_SUFFIXES[values.shape[1]], _PLACES[values.shape[1]]):
             columns[name + suffix] = values[:, place]
