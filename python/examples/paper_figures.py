@@ -103,7 +103,8 @@ save(figure, "stress_strain")
 COLOURS = ListedColormap(matplotlib.colormaps["YlOrBr"](np.linspace(0.0, 0.75, 256)))  # light enough for black lines
 reached = {method: run.history["packing_fraction"].max() for method, run in comparison.items()}
 stages = np.unique([min(reached.values()), max(reached.values())])
-figure, grid = plt.subplots(len(stages), len(comparison), figsize=(6.9, 1.75 * len(stages)), squeeze=False)
+figure, grid = plt.subplots(len(stages), len(comparison), squeeze=False,
+                            figsize=(0.7 + 1.55 * len(comparison), 1.75 * len(stages)))
 for phi, axes_row in zip(stages, grid):
     frames = {method: run.frames.nearest(phi) for method, run in comparison.items() if reached[method] > phi - 0.02}
     top_stress = np.percentile(np.concatenate([frame.grains["mean_stress"] for frame in frames.values()]), 95)

@@ -62,7 +62,7 @@ class Comparison(Mapping[str, Run]):
 
     def at(self, packing_fraction, column: str = "mean_stress") -> pd.DataFrame:
         """A row per packing fraction, a column per method: the value of a history column where the run first reaches
-        that packing fraction, linear between samples; nan where it does not. Raises RunError if there is no such column.
+        that packing fraction, linear between samples; nan where it does not. Raises RunError for an unknown column.
         """
         phi = np.atleast_1d(np.asarray(packing_fraction, dtype=float))
         table = pd.DataFrame({method: _at(run.history, column, phi, str(run.folder)) for method, run in self.items()},

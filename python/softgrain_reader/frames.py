@@ -32,8 +32,8 @@ class Frame:
 
     @cached_property
     def grains(self) -> pd.DataFrame:
-        """A row per grain (index: its number): x, y [m] of its centroid, velocity, mass, areas, stress, mean_stress,
-        deviatoric_stress, shape, and the method's own fields.
+        """A row per grain (index: its number; driven grains come last): x, y [m] of its centroid, velocity, mass, areas,
+        stress, mean_stress, deviatoric_stress, shape, and the method's own fields.
 
         The centroid is that of the outline's area; the centre of mass is up to 1.5 % of a radius away from it with BPM
         (30 discs a grain), 1 % with SDEM and 0.4 % with MPM (at a packing fraction of 0.93), 0 with rigid DEM. Where a
@@ -85,7 +85,7 @@ class Frame:
     @cached_property
     def walls(self) -> pd.DataFrame:
         """Index left, right, bottom, top: x0, y0, x1, y1 [m] of the ends, wall_force (on the wall), normal_force
-        (outward) [N], wall_stress [N/m]; `attrs["periodic"]`: these are the edges of a periodic cell, without forces."""
+        (outward) [N], wall_stress [N/m]. `attrs["periodic"]`: these are edges of a periodic cell, without forces."""
         file = self._read("walls", "make the run again")
         table = _table(file.cell_data, file.units).drop(columns="wall")
         ends = file.points[file.connectivity].reshape(-1, 4)

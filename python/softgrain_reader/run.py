@@ -57,8 +57,8 @@ class Run:
         """run.json: version, seed, threads, ended, exit_code, grains, steps, simulated_time, time_step, wall_time,
         cpu_time [s], peak_memory [bytes], samples, frames and more. Raises RunError while there is none."""
         if self._report is None:
-            raise RunError(f"{self.folder / 'run.json'}: missing: the run goes on, or was broken off; wait for its end, "
-                           "or go on with softgrain run --resume")
+            raise RunError(f"{self.folder / 'run.json'}: missing: the run goes on, or was broken off; wait for its "
+                           "end, or go on with softgrain run --resume")
         return self._report
 
     @property
@@ -93,8 +93,8 @@ class Run:
         try:
             return Frames([Frame(self.folder, k, rows.loc[time]) for k, time in enumerate(self._frame_times)])
         except KeyError as error:
-            raise RunError(f"{self.folder / 'history.csv'}: has no row at time {error} of a frame; it is of another run "
-                           "than grains.pvd: make the run again") from None
+            raise RunError(f"{self.folder / 'history.csv'}: has no row at time {error} of a frame; it is of another "
+                           "run than grains.pvd: make the run again") from None
 
     @cached_property
     def measures(self) -> Mapping[str, "Measure"]:

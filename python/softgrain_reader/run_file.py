@@ -27,8 +27,8 @@ def read_run_file(path: Path) -> RunFile:
             units = {name: _text(column.attrs.get("unit", b"")) for name, column in columns.items()}
             return RunFile(_text(file["version"][()]), _text(file["method"][()]), max(rows), units)
     except (OSError, KeyError, ValueError, RuntimeError, TypeError, AttributeError) as error:
-        raise RunError(f"{path}: damaged or cut off ({error}); make the run again, or remove this file to read the rest "
-                       "without units") from None
+        raise RunError(f"{path}: damaged or cut off ({error}); make the run again, or remove this file to read the "
+                       "rest without units") from None
 
 
 def _text(value: bytes | str) -> str:

@@ -49,7 +49,8 @@ class FramesOfRuns(unittest.TestCase):
         for _, _, frame in self.frames():
             grains = frame.grains
             np.testing.assert_array_equal(grains["stress_xy"], grains["stress_yx"])
-            np.testing.assert_allclose((grains["stress_xx"] + grains["stress_yy"]) / 2, grains["mean_stress"], rtol=1e-15)
+            mean = (grains["stress_xx"] + grains["stress_yy"]) / 2
+            np.testing.assert_allclose(mean, grains["mean_stress"], rtol=1e-15)
             shear = np.hypot((grains["stress_xx"] - grains["stress_yy"]) / 2, grains["stress_xy"])
             np.testing.assert_allclose(shear, grains["deviatoric_stress"], rtol=1e-14, atol=1e-300)
             self.assertEqual(grains.attrs["units"]["stress_xx"], "N/m")

@@ -82,11 +82,12 @@ class UnfinishedRuns(unittest.TestCase):
         for how, code in ((signal.SIGKILL, None), (signal.SIGINT, 130)):
             with self.subTest(how.name):
                 folder = made_runs.folder() / f"live_{how.name}"
+                settings = ("sampling.strain_interval=1e-6", "sampling.measures=''", "sampling.frame_every=50",
+                            "rigid_dem.inertial_number=1e-5")
                 process = subprocess.Popen(
-                    [made_runs.EXECUTABLE, "run", str(made_runs.folder() / "scenario.toml"), "--method", "rigid_dem", "--out",
-                     str(folder), "--quiet", "--threads", "1", "--set", "sampling.strain_interval=1e-6", "--set",
-                     "sampling.measures=''", "--set", "sampling.frame_every=50", "--set", "rigid_dem.inertial_number=1e-5"],
-                    stderr=subprocess.DEVNULL)
+                    [made_runs.EXECUTABLE, "run", str(made_runs.folder() / "scenario.toml"), "--method", "rigid_dem",
+                     "--out", str(folder), "--threads", "1", *(w for s in settings for w in ("--set", s))],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                 try:
                     self.read_while_it_goes(folder, process)
                 finally:
