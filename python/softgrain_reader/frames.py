@@ -32,8 +32,8 @@ class Frame:
 
     @cached_property
     def grains(self) -> pd.DataFrame:
-        """A row per grain (index: its number; driven grains come last): x, y [m] of its centroid, velocity, mass, areas,
-        stress, mean_stress, deviatoric_stress, shape, and the method's own fields.
+        """A row per grain (index: its number; driven grains come last): x, y [m] of its centroid, velocity, mass,
+        areas, stress, mean_stress, deviatoric_stress, shape, and the method's own fields.
 
         The centroid is that of the outline's area; the centre of mass is up to 1.5 % of a radius away from it with BPM
         (30 discs a grain), 1 % with SDEM and 0.4 % with MPM (at a packing fraction of 0.93), 0 with rigid DEM. Where a

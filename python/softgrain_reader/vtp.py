@@ -74,18 +74,14 @@ def _parse(raw: bytes) -> Vtp:
 
 def _values(data: memoryview, at: int, order: str, kind: str) -> np.ndarray:
     """Decodes one array: number of blocks, size of a block and of the last one, compressed sizes, blocks."""
-    blocks, block_size, last_size = np.frombuffer(data, order + "u8", 3, at).tolist()
+    blocks = int(np.frombuffer(data, order + "u8", 1, at)[0])
     sizes = np.frombuffer(data, order + "u8", blocks, at + 24).tolist() if blocks else []
     start = at + 24 + 8 * blocks
     parts = []
-    for k, size in enumerate(sizes):
-        part = zlib.decompress(data[start:start + size])
-        if len(part) != (last_size if last_size and k + 1 == blocks else block_size):
-            raise ValueError(f"block {k} of the array at {at} has {len(part)} bytes")
-        parts.append(part)
+    for size in sizes:
+        parts.append(zlib.decompress(data[start:start + size]))
         start += size
-    native = np.frombuffer(b"".join(parts), order + kind)
-    return native.astype(kind)
+    return np.frombuffer(b"".join(parts), order + kind).astype(kind)
 
 
 def _check_sizes(vtp: Vtp, points: int, cells: int) -> None:

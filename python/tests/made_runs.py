@@ -66,6 +66,18 @@ def run(name: str, *settings: str, until: float = 0.82) -> Path:
 
 
 @cache
+def cycle() -> Path:
+    """A comparison whose packing fraction goes up, down and up again."""
+    scenario = folder() / "cycle.toml"
+    loading = SCENARIO[SCENARIO.index("[[loading]]"):SCENARIO.index("[sampling]")]
+    back = loading.replace("0.82", "0.79") + "reverse = true\n"
+    scenario.write_text(SCENARIO.replace(loading, loading + back + loading))
+    softgrain("compare", scenario, "--methods", "sdem", "--out", folder() / "cycle", "--threads", 1, "--quiet",
+              "--no-pictures")
+    return folder() / "cycle"
+
+
+@cache
 def periodic() -> Path:
     return run("periodic", "box.periodic=true", until=0.84)
 

@@ -18,17 +18,26 @@ class Comparisons(unittest.TestCase):
             self.assertEqual(run.method, method)
 
     def test_values_at_packing_fractions_are_those_of_the_program(self):
-        with open(made_runs.comparison() / "comparison.csv", newline="") as file:
+        self.values_beside_the_table(self.comparison, 5)
+
+    def test_values_are_those_of_the_first_loading(self):
+        comparison = sg.open_comparison(made_runs.cycle())
+        steps = np.sign(np.diff(comparison["sdem"].history["packing_fraction"]))
+        self.assertEqual(np.count_nonzero(np.diff(steps)), 2)
+        self.values_beside_the_table(comparison, 3)
+
+    def values_beside_the_table(self, comparison, least):
+        with open(comparison.folder / "comparison.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertGreater(len(rows), 5)
-        self.assertEqual(len(self.comparison.table), len(rows))
-        for row, read in zip(rows, self.comparison.table.to_dict("records")):
+        self.assertGreater(len(rows), least)
+        self.assertEqual(len(comparison.table), len(rows))
+        for row, read in zip(rows, comparison.table.to_dict("records")):
             self.assertEqual(row.pop("method"), read.pop("method"))
             self.assertEqual({k: float(v) for k, v in row.items()}, read)
         for column, tolerance in (("mean_stress", 1e-6), ("coordination_number", 1e-6)):
-            found = self.comparison.at(sorted({float(row["packing_fraction"]) for row in rows}), column)
+            found = comparison.at(sorted({float(row["packing_fraction"]) for row in rows}), column)
             self.assertEqual(int(found.notna().sum().sum()), len(rows))
-            for row, read in zip(rows, self.comparison.table.to_dict("records")):
+            for row, read in zip(rows, comparison.table.to_dict("records")):
                 value = found[read["method"]][float(row["packing_fraction"])]
                 self.assertAlmostEqual(value, float(row[column]), delta=tolerance * max(1e-6, abs(value)))
 
