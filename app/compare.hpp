@@ -23,7 +23,7 @@ struct CompareRequest {
     bool quiet = false;
 };
 
-/// Runs every method into folder/<method>/ and writes initial_packing.csv, comparison.md, comparison.csv,
+/// Runs every method into `folder/<method>/` and writes initial_packing.csv, comparison.md, comparison.csv,
 /// plots and pictures. Returns the exit code: 0, 3 if a method diverged, 130 or 143 if stopped.
 int compare(const CompareRequest& request);
 

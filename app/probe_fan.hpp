@@ -20,8 +20,8 @@ struct ProbeFanRequest {
     bool quiet = false;
 };
 
-/// Runs the stages before the probe into folder/<method>/state/, then every probe from its end into
-/// folder/<method>/probe_<degrees>/. Writes response.csv and the response envelopes, response.png. Returns
+/// Runs the stages before the probe into `folder/<method>/state/`, then every probe from its end into
+/// `folder/<method>/probe_<degrees>/`. Writes response.csv and the response envelopes, response.png. Returns
 /// the exit code as compare() does. Throws InputError if the last stage is no probe.
 int probe_fan(const ProbeFanRequest& request);
 

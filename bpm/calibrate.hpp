@@ -22,7 +22,7 @@ Sample sample_of(const std::vector<double>& values);
 
 struct Calibration {
     double asked = 0.0;    ///< [N/m]
-    std::string_view key;  ///< attraction_stress (F0/<a0>), or bond_stiffness of elastic grains
+    std::string_view key;  ///< attraction_stress (`F0/<a0>`), or bond_stiffness of elastic grains
     double value = 0.0;    ///< of the key, found [N/m]
     Sample measured;       ///< property / value, seeds 1 to n
     Sample reached;        ///< property with the value found [N/m], seeds n + 1 to 2n

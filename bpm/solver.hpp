@@ -30,7 +30,7 @@ struct BpmSettings {
     int discs_per_grain;
     std::optional<double> disc_diameter;  ///< [m], replaces discs_per_grain
     DiscSizes disc_sizes;
-    double attraction_stress;    ///< F0 / <a0> [N/m]
+    double attraction_stress;    ///< `F0 / <a0>` [N/m]
     double attraction_exponent;  ///< gamma
     double attraction_range;     ///< largest gap [a0]
     double tolerance;            ///< [mean disc diameters]
@@ -47,7 +47,7 @@ struct BpmSettings {
     double rolling_resistance;
     int velocity_iterations, position_iterations;  ///< of Box2D
 
-    /// Stress that forces scale with: F0/<a0>, or the stiffness of the bonds [N/m].
+    /// Stress that forces scale with: `F0/<a0>`, or the stiffness of the bonds [N/m].
     double stress_scale() const {
         return behaviour == GrainBehaviour::plastic ? attraction_stress : bond_stiffness;
     }

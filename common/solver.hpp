@@ -37,7 +37,7 @@ class Solver {
     /// called for a box with walls; throws std::logic_error if the method has no periodic cell.
     virtual Mat2 cell_stress() const;
 
-    /// Stress that sets the scale of this grain material [N/m]: E, or F0/<a0> for an aggregate.
+    /// Stress that sets the scale of this grain material [N/m]: E, or `F0/<a0>` for an aggregate.
     virtual double stress_scale() const = 0;
 
     /// Why the method can no longer be trusted in its present state, if so; the loop then ends the run in

@@ -22,8 +22,8 @@ inline constexpr std::array<std::string_view, 5> measure_names{"forces", "chains
 /// The names in a list parted by commas.
 std::vector<std::string> measures_in(std::string_view list);
 
-/// Writes measures/<name>_<frame>.csv in the run's folder, and centres_<frame>.csv with a tessellation: from
-/// there the next frame takes what strains refer to, so that a run that goes on needs nothing else.
+/// Writes `measures/<name>_<frame>.csv` in the run's folder, and centres_<frame>.csv with a tessellation:
+/// from there the next frame takes what strains refer to, so that a run that goes on needs nothing else.
 class MeasureWriter final : public Observer {
   public:
     MeasureWriter(std::filesystem::path run_dir, std::vector<std::string> measures);

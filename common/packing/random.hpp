@@ -8,7 +8,7 @@
 
 namespace softgrain {
 
-/// mt19937_64 is fixed by the standard; the distributions of <random> are not, so they are not used.
+/// mt19937_64 is fixed by the standard; the distributions of `<random>` are not, so they are not used.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
