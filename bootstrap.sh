@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
-packages=(g++ cmake ninja-build git ca-certificates
+packages=(g++ cmake ninja-build git ca-certificates python3
           libeigen3-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libbox2d-dev
           libhdf5-dev libvtk9-dev libgtest-dev libegl-dev libglew-dev libegl-mesa0 libgl1-mesa-dri xvfb xauth fonts-dejavu-core)
 
