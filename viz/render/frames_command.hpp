@@ -1,8 +1,10 @@
 #pragma once
-// softgrain-render frames: runs at the same loading stages, on one scale.
+// softgrain-render frames: a picture for each run and loading stage, and all of them on one sheet.
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "viz/render/shared_scale.hpp"
 
 namespace softgrain {
 
@@ -10,12 +12,8 @@ struct FramesRequest {
     std::vector<std::string> runs;  ///< LABEL=RUN_DIR
     std::vector<double> at;         ///< fractions of the list of frames
     std::vector<double> at_packing_fraction;
-    std::string field = "mean_stress";
-    std::vector<double> range;   ///< empty, or min and max of the colours
-    bool parts = false;          ///< draw what grains are made of, of the runs that wrote it
-    std::vector<double> window;  ///< empty, or left, right, bottom, top as shares of the extent
+    DrawingStyle style;
     std::filesystem::path out;
-    int width = 1600;  ///< [pixels]
 };
 
 /// Writes OUT/LABEL_1.png ... for each run and stage, and OUT/sheet.png. Throws InputError, OutputError.

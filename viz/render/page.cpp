@@ -148,7 +148,7 @@ void Page::rectangle(const Vec2& low, const Vec2& high, Colour colour) {
 }
 
 void Page::text(const Vec2& at, std::string words, const TextStyle& style) {
-    texts_.push_back({at, std::move(words), style});
+    if (!words.empty()) texts_.push_back({at, std::move(words), style});
 }
 
 void Page::add_shapes(vtkRenderer& renderer) const {

@@ -51,7 +51,7 @@ void draw_outlines(Page& page, const Frame& frame, const PanelScale& scale, cons
 void draw_grains(Page& page, const Frame& frame, const PanelScale& scale, const Placement& place) {
     std::vector<Colour> colours;
     for (const double value : field_values(frame, scale.field))
-        colours.push_back(viridis(scale.colours.fraction(value)));
+        colours.push_back(colour_of(scale.colours, value));
     draw_outlines(page, frame, scale, place, colours);
 }
 
@@ -71,7 +71,7 @@ void draw_parts(Page& page, const Frame& frame, const PanelScale& scale, const P
         const bool rimmed = radius >= smallest_rimmed;
         if (rimmed) page.disc(centre, radius, outline_colour);
         page.disc(centre, rimmed ? radius - std::min(thickest_outline, rim_share * radius) : radius,
-                  viridis(scale.colours.fraction(values[p])));
+                  colour_of(scale.colours, values[p]));
     }
 }
 

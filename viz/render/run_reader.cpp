@@ -70,13 +70,12 @@ vtkSmartPointer<vtkPolyData> read_at_time(const std::vector<FrameFile>& files, d
     return nullptr;
 }
 
-/// The history's values at the times of the frames.
-std::vector<double> at_frames(const CsvTable* history, std::string_view name,
+/// A column's values at the times of the frames; nan if it is empty.
+std::vector<double> at_frames(const CsvTable* history, const std::vector<double>& column,
                               const std::vector<FrameFile>& frames) {
     std::vector<double> values(frames.size(), std::numeric_limits<double>::quiet_NaN());
-    if (history == nullptr || !history->has("time") || !history->has(name)) return values;
+    if (history == nullptr || !history->has("time") || column.empty()) return values;
     const auto& time = history->column("time");
-    const auto& column = history->column(name);
     for (std::size_t f = 0; f < frames.size(); ++f) {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t r = 0; r < time.size(); ++r) {
@@ -88,6 +87,24 @@ std::vector<double> at_frames(const CsvTable* history, std::string_view name,
         }
     }
     return values;
+}
+
+std::vector<double> column_or_none(const CsvTable* history, std::string_view name) {
+    return history != nullptr && history->has(name) ? history->column(name) : std::vector<double>{};
+}
+
+std::vector<double> strain_path(const CsvTable* history) {
+    std::vector<double> path;
+    for (const char* name : {"axial_strain", "shear_strain"}) {
+        const auto strain = column_or_none(history, name);
+        if (path.empty()) path.assign(strain.size(), 0.0);
+        double travelled = 0.0;
+        for (std::size_t r = 1; r < strain.size(); ++r) {
+            travelled += std::abs(strain[r] - strain[r - 1]);
+            path[r] += travelled;
+        }
+    }
+    return path;
 }
 
 }  // namespace
@@ -140,9 +157,21 @@ RunReader::RunReader(std::string label, fs::path directory)
     std::optional<CsvTable> history;
     if (fs::exists(directory_ / "history.csv")) history.emplace(directory_ / "history.csv");
     const CsvTable* table = history ? &*history : nullptr;
-    packing_fraction_ = at_frames(table, "packing_fraction", grains_);
-    mean_stress_ = at_frames(table, "mean_stress", grains_);
-    coordination_number_ = at_frames(table, "coordination_number", grains_);
+    packing_fraction_ = at_frames(table, column_or_none(table, "packing_fraction"), grains_);
+    mean_stress_ = at_frames(table, column_or_none(table, "mean_stress"), grains_);
+    coordination_number_ = at_frames(table, column_or_none(table, "coordination_number"), grains_);
+    strain_path_ = at_frames(table, strain_path(table), grains_);
+    for (const FrameFile& file : grains_) time_.push_back(file.time);
+}
+
+bool RunReader::has_ended() const {
+    return fs::exists(directory_ / "run.json");
+}
+
+void RunReader::require_packing_fraction() const {
+    if (std::ranges::any_of(packing_fraction_, [](double phi) { return std::isfinite(phi); })) return;
+    throw InputError(fmt::format("{}: gives no packing_fraction at its frames; use --at",
+                                 (directory_ / "history.csv").string()));
 }
 
 std::size_t RunReader::frame_at_fraction(double fraction) const {
@@ -150,16 +179,14 @@ std::size_t RunReader::frame_at_fraction(double fraction) const {
 }
 
 std::size_t RunReader::frame_at_packing_fraction(double packing_fraction) const {
+    require_packing_fraction();
     std::optional<std::size_t> best;
     for (std::size_t f = 0; f < grains_.size(); ++f) {
         const double distance = std::abs(packing_fraction_[f] - packing_fraction);
         if (std::isnan(distance)) continue;
         if (!best || distance < std::abs(packing_fraction_[*best] - packing_fraction)) best = f;
     }
-    if (!best)
-        throw InputError(fmt::format("{}: gives no packing_fraction at its frames; use --at",
-                                     (directory_ / "history.csv").string()));
-    return *best;
+    return best.value();
 }
 
 Frame RunReader::read(std::size_t frame, bool parts) const {

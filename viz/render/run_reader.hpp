@@ -33,6 +33,18 @@ class RunReader {
     RunReader(std::string label, std::filesystem::path directory);
 
     const std::string& label() const { return label_; }
+    std::size_t frame_count() const { return grains_.size(); }
+    /// The run has said how it ended; else it is going on, or was killed.
+    bool has_ended() const;
+
+    /// [frames] nan without a history.
+    const std::vector<double>& packing_fractions() const { return packing_fraction_; }
+    /// [frames] Sum of all changes of axial and shear strain so far; nan without a history.
+    const std::vector<double>& strain_paths() const { return strain_path_; }
+    const std::vector<double>& times() const { return time_; }  ///< [frames] [s]
+    /// Throws InputError if no frame has a packing fraction.
+    void require_packing_fraction() const;
+
     /// The frame at this fraction (0 to 1) of the list of frames.
     std::size_t frame_at_fraction(double fraction) const;
     /// The frame whose packing fraction in the history is nearest. Throws InputError without a history.
@@ -45,6 +57,7 @@ class RunReader {
     std::filesystem::path directory_;
     std::vector<FrameFile> grains_, contacts_, walls_, parts_, part_contacts_;
     std::vector<double> packing_fraction_, mean_stress_, coordination_number_;  ///< one per frame
+    std::vector<double> time_, strain_path_;                                    ///< one per frame
 };
 
 }  // namespace softgrain

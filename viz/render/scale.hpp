@@ -16,7 +16,15 @@ struct ColourRange {
     bool below, above;
 
     double fraction(double value) const { return (value - min) / (max - min); }
+    bool has_both_signs() const { return min < 0.0 && max > 0.0; }
 };
+
+/// Purple, white, orange (PuOr of Harrower and Brewer 2003), readable with any colour vision; t from -1 to 1
+/// is clamped, nan is grey.
+Colour purple_orange(double t);
+
+/// Viridis; where a range has both signs purple for values below 0, orange above, as dark for equal sizes.
+Colour colour_of(const ColourRange& range, double value);
 
 /// From the 2nd to the 98th percentile, widened to 0 on the near side. `values` may hold nan.
 ColourRange robust_range(std::vector<double> values);

@@ -10,7 +10,8 @@ namespace softgrain {
 namespace {
 
 constexpr double tallest_panel = 1.4;  ///< times its width
-constexpr double second_key = 7.0;     ///< distance between two keys of forces, times the font
+constexpr Colour warning{183, 65, 0, 255};
+constexpr double second_key = 7.0;  ///< distance between two keys of forces, times the font
 
 /// Sizes of everything on the page [pixels].
 struct Layout {
@@ -19,20 +20,24 @@ struct Layout {
     double height;
 };
 
-bool is_single(const Sheet& sheet) {
-    return sheet.row_labels.size() == 1 && sheet.column_labels.size() == 1;
+constexpr double line_height = 1.15, title_height = 1.6;  ///< of a caption, times the font
+
+bool has_titles(const Sheet& sheet) {
+    return !sheet.cells[0][0].title.empty();
 }
 
 Layout make_layout(const Sheet& sheet, const SheetScale& scale, int width) {
-    const auto rows = static_cast<double>(sheet.row_labels.size());
-    const auto columns = static_cast<double>(sheet.column_labels.size());
+    const auto rows = static_cast<double>(sheet.cells.size());
+    const auto columns = static_cast<double>(sheet.cells[0].size());
     Layout l{};
     l.font = columns > 1.0 ? width / std::max(76.0, 19.0 * columns) : width / 52.0;
     l.margin = 1.2 * l.font;
-    l.left = is_single(sheet) ? 0.0 : 2.2 * l.font;
+    l.left = sheet.row_labels.empty() ? 0.0 : 2.2 * l.font;
     l.gap = 1.6 * l.font;
-    l.header = 2.4 * l.font;
+    l.header = sheet.heading.empty() && sheet.column_labels.empty() ? 0.0 : 2.4 * l.font;
     l.caption = 3.2 * l.font;
+    if (sheet.one_stage) l.caption += line_height * l.font;
+    if (has_titles(sheet)) l.caption += title_height * l.font;
     l.footer = 6.0 * l.font;
     l.panel_width = (width - l.left - 2.0 * l.margin - (columns - 1.0) * l.gap) / columns;
     l.scale = std::min(l.panel_width / scale.extent.x(), tallest_panel * l.panel_width / scale.extent.y());
@@ -45,18 +50,40 @@ std::string number_text(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-void draw_caption(Page& page, const Frame& frame, double no_stress, const Layout& l, double x, double y) {
-    std::string first, second;
-    if (std::isfinite(frame.packing_fraction))
-        first = fmt::format("packing fraction {:.3f}", frame.packing_fraction);
-    else
-        first = "time " + number_text(frame.time) + " s";
+/// A line over a panel, made smaller if it would run into its neighbours.
+void draw_line(Page& page, const Layout& l, const Vec2& centre, const std::string& words, double size,
+               bool bold, Colour colour) {
+    const double room = l.panel_width + 0.6 * l.gap;
+    const double wide = text_width(words, size, bold);
+    const double fitted = wide > room ? std::floor(size * room / wide) : size;
+    page.text(centre, words, {fitted, Align::centre, Align::centre, false, bold, colour});
+}
+
+/// Lines from the panel upwards: stress, packing fraction, title.
+void draw_caption(Page& page, const Sheet& sheet, const Cell& cell, double no_stress, const Layout& l,
+                  double x, double y) {
+    const Frame& frame = *cell.frame;
+    const std::string time = "time " + number_text(frame.time) + " s";
+    std::vector<std::string> lines;
     const double stress = std::abs(frame.mean_stress) < no_stress ? 0.0 : frame.mean_stress;
-    if (std::isfinite(stress)) second = "mean stress " + number_text(stress) + " N/m";
+    std::string last;
+    if (std::isfinite(stress)) last = "mean stress " + number_text(stress) + " N/m";
     if (std::isfinite(frame.coordination_number))
-        second += fmt::format("{}Z {:.2f}", second.empty() ? "" : ",  ", frame.coordination_number);
-    page.text({x, y + 1.9 * l.font}, first, {l.font, Align::centre, Align::centre});
-    page.text({x, y + 0.75 * l.font}, second, {l.font, Align::centre, Align::centre});
+        last += fmt::format("{}Z {:.2f}", last.empty() ? "" : ",  ", frame.coordination_number);
+    lines.push_back(last);
+    const bool has_packing_fraction = std::isfinite(frame.packing_fraction);
+    if (has_packing_fraction && sheet.one_stage) lines.push_back(time);
+    const std::string where =
+        has_packing_fraction ? fmt::format("packing fraction {:.3f}", frame.packing_fraction) : time;
+    lines.push_back(cell.ending.empty() ? where : cell.ending + " " + where);
+    double height = y + 0.75 * l.font;
+    for (const std::string& line : lines) {
+        const bool is_warning = &line == &lines.back() && !cell.ending.empty();
+        draw_line(page, l, {x, height}, line, l.font, false, is_warning ? warning : black);
+        height += line_height * l.font;
+    }
+    if (!cell.title.empty())
+        draw_line(page, l, {x, height + 0.2 * l.font}, cell.title, 1.25 * l.font, true, black);
 }
 
 /// A pointed end, for values beyond the scale.
@@ -69,11 +96,15 @@ void draw_point(Page& page, const Vec2& base, double height, double reach, Colou
 void draw_colour_bar(Page& page, const SheetScale& scale, const Layout& l, double x, double y, double width) {
     const double thickness = 1.1 * l.font;
     constexpr int steps = 256;
+    const ColourRange& range = scale.colours;
+    const auto colour_at = [&](double share) {
+        return colour_of(range, range.min + share * (range.max - range.min));
+    };
     for (int k = 0; k < steps; ++k)
         page.rectangle({x + width * k / steps, y}, {x + width * (k + 1) / steps, y + thickness},
-                       viridis((k + 0.5) / steps));
-    if (scale.colours.below) draw_point(page, {x, y}, thickness, -thickness, viridis(0.0));
-    if (scale.colours.above) draw_point(page, {x + width, y}, thickness, thickness, viridis(1.0));
+                       colour_at((k + 0.5) / steps));
+    if (scale.colours.below) draw_point(page, {x, y}, thickness, -thickness, colour_at(0.0));
+    if (scale.colours.above) draw_point(page, {x + width, y}, thickness, thickness, colour_at(1.0));
     page.stroke(std::vector<Vec2>{{x, y}, {x + width, y}}, 1.5, black, false);
     page.stroke(std::vector<Vec2>{{x, y + thickness}, {x + width, y + thickness}}, 1.5, black, false);
     if (!scale.colours.below) page.stroke(std::vector<Vec2>{{x, y}, {x, y + thickness}}, 1.5, black, false);
@@ -136,21 +167,23 @@ Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
         return l.margin + l.left + static_cast<double>(c) * (l.panel_width + l.gap) + l.panel_width / 2.0;
     };
     double y = l.height - l.margin - l.header;
+    const TextStyle header{1.15 * l.font, Align::centre, Align::centre, false, true};
+    page.text({column_centre(0), y + l.header / 2.0}, sheet.heading, header);
     for (std::size_t c = 0; c < sheet.column_labels.size(); ++c)
-        page.text(
-            {column_centre(c), y + l.header / 2.0},
-            is_single(sheet) ? sheet.row_labels[0] + ", " + sheet.column_labels[0] : sheet.column_labels[c],
-            {1.15 * l.font, Align::centre, Align::centre, false, true});
-    for (std::size_t r = 0; r < sheet.row_labels.size(); ++r) {
+        page.text({column_centre(c), y + l.header / 2.0}, sheet.column_labels[c], header);
+    for (std::size_t r = 0; r < sheet.cells.size(); ++r) {
         y -= l.caption + l.panel_height;
-        for (std::size_t c = 0; c < sheet.column_labels.size(); ++c) {
-            const Frame& frame = *sheet.frames[r][c];
+        for (std::size_t c = 0; c < sheet.cells[r].size(); ++c) {
+            const Cell& cell = sheet.cells[r][c];
             const Vec2 centre{column_centre(c), y + l.panel_height / 2.0};
-            draw_panel(page, frame, panel, centre);
-            const double half = l.scale * shown_extent(frame, scale.window).size().y() / 2.0;
-            draw_caption(page, frame, scale.no_stress, l, centre.x(), centre.y() + half + 0.3 * l.font);
+            draw_panel(page, *cell.frame, panel, centre);
+            const double height = sheet.one_stage
+                                      ? l.panel_height
+                                      : l.scale * shown_extent(*cell.frame, scale.window).size().y();
+            draw_caption(page, sheet, cell, scale.no_stress, l, centre.x(),
+                         centre.y() + height / 2.0 + 0.3 * l.font);
         }
-        if (!is_single(sheet))
+        if (!sheet.row_labels.empty())
             page.text({l.margin + 0.5 * l.font, y + l.panel_height / 2.0}, sheet.row_labels[r],
                       {1.25 * l.font, Align::centre, Align::centre, true, true});
         y -= l.gap;

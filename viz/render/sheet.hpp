@@ -1,5 +1,5 @@
 #pragma once
-// A page of panels on one scale: rows are runs, columns are loading stages.
+// A page of panels on one scale.
 #include <string>
 #include <vector>
 
@@ -8,10 +8,22 @@
 
 namespace softgrain {
 
+/// One panel of a sheet.
+struct Cell {
+    const Frame* frame;
+    std::string title;  ///< above the panel, or ""
+    std::string
+        ending;  ///< "" or why the frame is not at the stage of the others, before its packing fraction
+};
+
 struct Sheet {
-    std::vector<std::string> row_labels;            ///< [rows]
-    std::vector<std::string> column_labels;         ///< [columns]
-    std::vector<std::vector<const Frame*>> frames;  ///< [rows][columns]
+    std::string heading;                     ///< above all panels, or ""
+    std::vector<std::string> row_labels;     ///< [rows], or none
+    std::vector<std::string> column_labels;  ///< [columns], or none
+    std::vector<std::vector<Cell>> cells;    ///< [rows][columns]; the last row may be shorter
+    /// Captions stay where they are when boxes shrink, and say the time: for panels that do not know of other
+    /// stages.
+    bool one_stage = false;
 };
 
 /// What the panels share apart from the pixels, which follow from the page.

@@ -1,0 +1,13 @@
+#pragma once
+// Another program as a child process.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace softgrain {
+
+/// Runs a program, given with its arguments, to its end with its messages read from stderr. Returns why it
+/// failed, if it did.
+std::optional<std::string> run_program(const std::vector<std::string>& arguments);
+
+}  // namespace softgrain
