@@ -160,7 +160,7 @@ Sample frame_sample(int frame) {
     return sample;
 }
 
-void write_hand_made_run(const std::filesystem::path& directory, int n, int frames) {
+void write_hand_made_run(const std::filesystem::path& directory, int n, int frames, double strain) {
     GrainWriter grains(directory, Need::all);
     ContactWriter contacts(directory);
     WallWriter walls(directory);
@@ -168,9 +168,9 @@ void write_hand_made_run(const std::filesystem::path& directory, int n, int fram
     std::ofstream history(directory / "history.csv");
     history << "time,step,axial_strain,packing_fraction,mean_stress,coordination_number\n";
     for (int k = 0; k < 2 * frames - 1; ++k) {
-        const double strain = 0.2 * k / std::max(1, 2 * frames - 2);
-        const HandMadeGrains state(n, strain, 10.0 * k);
-        history << fmt::format("{},{},{},{},{},{}\n", state.time, 100 * k, strain, state.packing_fraction(),
+        const double so_far = strain * k / std::max(1, 2 * frames - 2);
+        const HandMadeGrains state(n, so_far, 10.0 * k);
+        history << fmt::format("{},{},{},{},{},{}\n", state.time, 100 * k, so_far, state.packing_fraction(),
                                state.mean_stress(), 4.0 * (1.0 - 1.0 / n));
         if (k % 2 != 0) continue;
         for (Observer* writer : std::initializer_list<Observer*>{&grains, &contacts, &walls})

@@ -46,8 +46,8 @@ struct HandMadeParts {
     std::vector<PartContact> contacts;
 };
 
-/// Writes `frames` frames with all three writers, and history.csv with two rows per frame.
-void write_hand_made_run(const std::filesystem::path& directory, int n, int frames);
+/// Writes `frames` frames up to a strain with all three writers, and history.csv with two rows per frame.
+void write_hand_made_run(const std::filesystem::path& directory, int n, int frames, double strain = 0.2);
 
 Sample frame_sample(int frame);
 

@@ -60,6 +60,33 @@ TEST(Triangulate, StarAndSpiralAreCoveredOnce) {
     EXPECT_TRUE(triangulate(std::vector<Vec2>{{0, 0}, {1, 0}}).empty());
 }
 
+// The quick way for convex polygons, and one that only looks convex because it goes round twice.
+TEST(Triangulate, ConvexPolygonsAreCoveredOnce) {
+    std::vector<Vec2> oval, pentagram;
+    for (int k = 0; k < 12; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / 12;
+        oval.emplace_back(3.0 * std::cos(angle), std::sin(angle));
+    }
+    for (int k = 0; k < 5; ++k) {
+        const double angle = 4.0 * std::numbers::pi * k / 5;
+        pentagram.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    for (const bool reversed : {false, true}) {
+        if (reversed) std::reverse(oval.begin(), oval.end());
+        double sum = 0.0;
+        for (const auto& t : triangulate(oval)) {
+            const auto at = [&](int k) {
+                return oval[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+            };
+            const double area = cross(at(1) - at(0), at(2) - at(0)) / 2.0;
+            EXPECT_GT(area, 0.0);
+            sum += area;
+        }
+        EXPECT_NEAR(sum, std::abs(polygon_shape(oval).area), 1e-12);
+    }
+    EXPECT_EQ(triangulate(pentagram).size(), 3U);
+}
+
 TEST(Scale, RangeIsRobustAndStartsAtZero) {
     std::vector<double> values;
     for (int k = 1; k <= 1000; ++k) values.push_back(k);
@@ -101,6 +128,21 @@ TEST(Scale, ViridisEndsAndClamps) {
     EXPECT_EQ(viridis(1.0), (Colour{0xFD, 0xE7, 0x25, 255}));
     EXPECT_EQ(viridis(7.0), viridis(1.0));
     EXPECT_NE(viridis(nan), viridis(0.0));
+}
+
+// White is 0 wherever the ends are, and equal sizes are equally dark.
+TEST(Scale, BothSignsHaveColoursOfTheirOwn) {
+    const ColourRange range = robust_range({-1.0, -0.5, 2.0, 4.0});
+    ASSERT_TRUE(range.has_both_signs());
+    EXPECT_EQ(colour_of(range, 0.0), purple_orange(0.0));
+    EXPECT_EQ(colour_of(range, 4.0), purple_orange(1.0));
+    EXPECT_EQ(colour_of(range, -1.0), purple_orange(-0.25));
+    EXPECT_GT(colour_of(range, -1.0)[2], colour_of(range, -1.0)[1]);  // purple: more blue than green
+    EXPECT_LT(colour_of(range, 1.0)[2], colour_of(range, 1.0)[1]);    // orange: less
+    EXPECT_EQ(colour_of(range, nan), viridis(nan));
+    const ColourRange one_sign = robust_range({0.0, 1.0, 4.0});
+    EXPECT_EQ(colour_of(one_sign, 4.0), viridis(1.0));
+    EXPECT_EQ(colour_of(one_sign, 0.0), viridis(0.0));
 }
 
 TEST(PlotSpecTest, SurvivesJson) {

@@ -51,6 +51,8 @@ CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
             columns_.resize(names_.size());
             continue;
         }
+        const bool half_written = file.eof() && cells.size() < names_.size();
+        if (half_written) break;
         if (cells.size() != names_.size())
             throw InputError(fmt::format("{}:{}: {} cells where the header has {}", path_.string(), number,
                                          cells.size(), names_.size()));

@@ -9,8 +9,9 @@ namespace softgrain {
 
 class CsvTable {
   public:
-    /// Lines starting with # and empty lines are skipped; `nan` and empty cells are nan.
-    /// Throws InputError with file and line.
+    /// Lines starting with # and empty lines are skipped; `nan` and empty cells are nan; a last
+    /// line that is being written, short and without its end, is left out. Throws InputError with file and
+    /// line.
     explicit CsvTable(std::filesystem::path path);
 
     bool has(std::string_view name) const;

@@ -8,15 +8,20 @@ namespace {
 
 constexpr Colour outline_colour{45, 45, 45, 255};
 constexpr Colour inside_grain{215, 215, 215, 255};  ///< behind the parts
-constexpr double outline_share = 0.025;   ///< width of an outline, times the mean diameter of the grains
-constexpr double thickest_outline = 1.4;  ///< [pixels]
-constexpr double rim_share = 0.08;        ///< width of a part's rim, times its radius
-constexpr double smallest_rimmed = 5.0;   ///< radius of the parts that get a rim [pixels]
-constexpr double thickest_edge = 1.0;     ///< light edge of a chain, on each side [pixels]
-constexpr double wall_width = 4.0;        ///< [pixels]
-constexpr double thin_width = 1.5;        ///< edge of a periodic cell or of a window [pixels]
-constexpr double thinnest_chain = 0.2;    ///< thinner lines are not drawn [pixels]
-constexpr double even_width = 1.5;        ///< [pixels]
+constexpr double outline_share = 0.025;    ///< width of an outline, times the mean diameter of the grains
+constexpr double thickest_outline = 1.4;   ///< [pixels]
+constexpr double thinnest_outline = 0.12;  ///< not drawn if it would be thinner [pixels]
+constexpr double smallest_detailed =
+    10.0;  ///< radius of grains that are drawn with all their corners [pixels]
+constexpr double invisible_sagitta = 0.05;  ///< [pixels]
+constexpr double rim_share = 0.08;          ///< width of a part's rim, times its radius
+constexpr double smallest_rimmed = 5.0;     ///< radius of the parts that get a rim [pixels]
+constexpr double thickest_edge = 1.0;       ///< light edge of a chain, on each side [pixels]
+constexpr double thinnest_edge = 0.7;       ///< [pixels]
+constexpr double wall_width = 4.0;          ///< [pixels]
+constexpr double thin_width = 1.5;          ///< edge of a periodic cell or of a window [pixels]
+constexpr double thinnest_chain = 0.2;      ///< thinner lines are not drawn [pixels]
+constexpr double even_width = 1.5;          ///< [pixels]
 
 /// From metres to pixels.
 class Placement {
@@ -26,6 +31,7 @@ class Placement {
     Vec2 operator()(const Vec2& x) const { return centre_ + scale_ * (x - middle_); }
     std::vector<Vec2> operator()(const std::vector<Vec2>& points) const {
         std::vector<Vec2> placed;
+        placed.reserve(points.size());
         for (const Vec2& x : points) placed.push_back((*this)(x));
         return placed;
     }
@@ -35,16 +41,34 @@ class Placement {
     Vec2 centre_, middle_;
 };
 
-/// Filled with one colour each, and edged.
+/// Without the corners of a small polygon that its pixels cannot show.
+std::vector<Vec2> without_invisible_corners(std::vector<Vec2> polygon) {
+    Vec2 low = polygon[0], high = polygon[0];
+    for (const Vec2& corner : polygon) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+    }
+    const double radius = (high - low).maxCoeff() / 2.0;
+    if (radius > smallest_detailed) return polygon;
+    const double spacing = 2.0 * std::sqrt(2.0 * invisible_sagitta * radius);
+    std::vector<Vec2> kept;
+    for (const Vec2& corner : polygon)
+        if (kept.empty() || (corner - kept.back()).squaredNorm() >= spacing * spacing) kept.push_back(corner);
+    return kept.size() < 3 ? polygon : kept;
+}
+
+/// Filled with one colour each, and edged. Below the width that pixels can show, edges get paler.
 void draw_outlines(Page& page, const Frame& frame, const PanelScale& scale, const Placement& place,
                    const std::vector<Colour>& colours) {
     const auto outlines = grain_outlines(frame);
-    const double outline_width =
+    const double width =
         std::min(thickest_outline, outline_share * mean_diameter(frame) * scale.pixels_per_metre);
+    Colour edge = outline_colour;
+    edge[3] = static_cast<std::uint8_t>(std::lround(255.0 * std::min(1.0, width)));
     for (std::size_t g = 0; g < outlines.size(); ++g) {
-        const auto polygon = place(outlines[g]);
+        const auto polygon = without_invisible_corners(place(outlines[g]));
         page.fill(polygon, colours[g]);
-        page.stroke(polygon, outline_width, outline_colour, true);
+        if (width >= thinnest_outline) page.stroke(polygon, std::max(width, 1.0), edge, true);
     }
 }
 
@@ -115,14 +139,16 @@ void draw_box(Page& page, const Frame& frame, const Placement& place) {
 }  // namespace
 
 void draw_chains(Page& page, std::span<const Chain> chains, double thinnest_edged) {
-    // Below the width that pixels can show evenly, a line gets paler instead of thinner.
-    const auto stroke = [&](const Chain& chain, double extra, Colour colour) {
-        colour[3] = static_cast<std::uint8_t>(std::lround(255.0 * std::min(1.0, chain.width / even_width)));
-        page.stroke(chain.line, std::max(chain.width, even_width) + extra, colour, false);
+    // Below the width that pixels can show evenly, lines and edges get paler instead of thinner.
+    const auto stroke = [&](const Chain& chain, double edge, Colour colour) {
+        const double even_edge = edge > 0.0 ? std::max(edge, thinnest_edge) : 0.0;
+        double opacity = std::min(1.0, chain.width / even_width);
+        if (edge > 0.0) opacity *= edge / even_edge;
+        colour[3] = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
+        page.stroke(chain.line, std::max(chain.width, even_width) + 2.0 * even_edge, colour, false);
     };
     for (const Chain& chain : chains)
-        if (chain.width >= thinnest_edged)
-            stroke(chain, 2.0 * std::min(thickest_edge, 0.3 * chain.width), white);
+        if (chain.width >= thinnest_edged) stroke(chain, std::min(thickest_edge, 0.3 * chain.width), white);
     for (const Chain& chain : chains) stroke(chain, 0.0, black);
 }
 

@@ -9,6 +9,7 @@
 namespace softgrain {
 namespace {
 
+constexpr double widest_line = 0.6;    ///< of a force, times the font
 constexpr double tallest_panel = 1.4;  ///< times its width
 constexpr Colour warning{183, 65, 0, 255};
 constexpr double second_key = 7.0;  ///< distance between two keys of forces, times the font
@@ -63,7 +64,7 @@ void draw_line(Page& page, const Layout& l, const Vec2& centre, const std::strin
 void draw_caption(Page& page, const Sheet& sheet, const Cell& cell, double no_stress, const Layout& l,
                   double x, double y) {
     const Frame& frame = *cell.frame;
-    const std::string time = "time " + number_text(frame.time) + " s";
+    const std::string time = fmt::format("time {:.4g} s", frame.time);
     std::vector<std::string> lines;
     const double stress = std::abs(frame.mean_stress) < no_stress ? 0.0 : frame.mean_stress;
     std::string last;
@@ -158,8 +159,11 @@ void draw_force_keys(Page& page, const SheetScale& scale, const Layout& l, doubl
 
 }  // namespace
 
-Page lay_out_sheet(const Sheet& sheet, const SheetScale& scale, int width) {
-    const Layout l = make_layout(sheet, scale, width);
+Page lay_out_sheet(const Sheet& sheet, const SheetScale& wanted, int width) {
+    const Layout l = make_layout(sheet, wanted, width);
+    SheetScale scale = wanted;
+    for (ForceScale* forces : {&scale.grain_forces, &scale.part_forces})
+        forces->widest_line = std::min(forces->widest_line, widest_line * l.font / l.scale);
     Page page(width, static_cast<int>(std::lround(l.height)));
     const PanelScale panel{scale.field,        scale.colours,     l.scale,
                            scale.grain_forces, scale.part_forces, scale.window};

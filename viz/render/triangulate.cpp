@@ -69,11 +69,32 @@ class EarClipper {
     std::size_t next_ = 0;
 };
 
+/// Turns one way all along, and once round.
+bool is_convex(std::span<const Vec2> polygon) {
+    const std::size_t n = polygon.size();
+    int left = 0, right = 0, turns_in_x = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 &a = polygon[k], &b = polygon[(k + 1) % n], &c = polygon[(k + 2) % n];
+        const double side = turn(a, b, c);
+        left += side > 0.0 ? 1 : 0;
+        right += side < 0.0 ? 1 : 0;
+        turns_in_x += (b.x() >= a.x()) != (c.x() >= b.x()) ? 1 : 0;
+    }
+    return (left == 0 || right == 0) && turns_in_x <= 2;
+}
+
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(std::span<const Vec2> polygon) {
     const auto n = static_cast<int>(polygon.size());
     if (n < 3) return {};
+    if (is_convex(polygon)) {
+        std::vector<std::array<int, 3>> fan;
+        const bool clockwise = twice_area(polygon) < 0.0;
+        for (int k = 2; k < n; ++k)
+            fan.push_back(clockwise ? std::array{0, k, k - 1} : std::array{0, k - 1, k});
+        return fan;
+    }
     const bool reversed = twice_area(polygon) < 0.0;
     std::vector<int> corners;
     for (int k = 0; k < n; ++k) corners.push_back(reversed ? n - 1 - k : k);
