@@ -268,8 +268,8 @@ int command_line(int argc, char** argv) {
         ->add_option("folder", a.out, "results folder of one run")
         ->required();
     CLI::App* render =
-        add("render", "draw a run off-screen (softgrain render --help for its options)", render_command,
-            "render frames --run SDEM=results/default/sdem --at 0,0.5,1 --out pictures");
+        add("render", "draw runs side by side, as pictures or a film (options: softgrain render --help)",
+            render_command, "render results/default --film");
     render->prefix_command();
     render->set_help_flag();
     render->callback([&] {
