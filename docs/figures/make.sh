@@ -11,6 +11,8 @@ mkdir -p "$out"
 echo "== default comparison"
 $softgrain compare scenarios/default.toml --out "$out/default" --quiet
 cp "$out/default/pictures/sheet.png" "$figures/default_pictures.png"
+$softgrain render SDEM="$out/default/sdem" BPM="$out/default/bpm" "rigid DEM=$out/default/rigid_dem" MPM="$out/default/mpm" \
+    --at-phi 0.95 --range 0,0.3 --out "$figures/methods_at_095.png"
 cp "$out/default/stress.png" "$figures/default_stress.png"
 cp "$out/default/coordination.png" "$figures/default_coordination.png"
 

@@ -1,6 +1,7 @@
 // Which runs are meant, and which of their frames belong together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "common/errors.hpp"
@@ -23,26 +24,26 @@ class LoadingPathTest : public testing::Test {
     }
 };
 
-/// Frames every 0.05 of strain against every 0.025, one of them to half of the strain only.
+/// Frames every 0.05 of strain against every 0.0125, these to half of the strain only.
 TEST_F(LoadingPathTest, FramesAreMatchedByPackingFraction) {
     add_run("long", 5, 0.2);
-    add_run("short", 5, 0.1);
+    add_run("short", 9, 0.1);
     const LoadingPath path(runs, false);
     EXPECT_EQ(path.quantity(), "packing fraction");
     const auto& phi = runs[0].packing_fractions();
     EXPECT_EQ(path.start(), phi[0]);
     EXPECT_EQ(path.end(), phi[4]);
-    EXPECT_DOUBLE_EQ(path.last_common(), runs[1].packing_fractions()[4]);
+    EXPECT_DOUBLE_EQ(path.last_common(), runs[1].packing_fractions()[8]);
     EXPECT_EQ(path.match(0, path.last_common()).frame, 2U);
-    EXPECT_EQ(path.match(1, path.last_common()).frame, 4U);
-    EXPECT_EQ(path.match(1, phi[1]).frame, 2U);
+    EXPECT_EQ(path.match(1, path.last_common()).frame, 8U);
+    EXPECT_EQ(path.match(1, phi[1]).frame, 4U);
     EXPECT_FALSE(path.match(1, path.last_common()).beyond_end);
-    EXPECT_EQ(path.match(1, path.end()).frame, 4U);
+    EXPECT_EQ(path.match(1, path.end()).frame, 8U);
     EXPECT_TRUE(path.match(1, path.end()).beyond_end);
     EXPECT_FALSE(path.match(0, path.end()).beyond_end);
     // All frames of the one, then those of the other that lie behind.
     const auto stages = path.all_stages();
-    ASSERT_EQ(stages.size(), 7U);
+    ASSERT_EQ(stages.size(), 11U);
     EXPECT_EQ(stages.back(), phi[4]);
     EXPECT_TRUE(std::is_sorted(stages.begin(), stages.end()));
 }

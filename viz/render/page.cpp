@@ -14,6 +14,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
+#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -152,15 +153,22 @@ void Page::text(const Vec2& at, std::string words, const TextStyle& style) {
 }
 
 void Page::add_shapes(vtkRenderer& renderer) const {
+    const auto count = static_cast<vtkIdType>(corners_.size());
     vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> triangles;
+    vtkNew<vtkTypeInt32Array> corners_of_triangles;
     vtkNew<vtkUnsignedCharArray> colours;
+    points->SetNumberOfPoints(count);
+    corners_of_triangles->SetNumberOfValues(count);
     colours->SetNumberOfComponents(4);
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-        if (k % 3 == 0) triangles->InsertNextCell(3);
-        triangles->InsertCellPoint(points->InsertNextPoint(corners_[k].x(), corners_[k].y(), 0.0));
-        colours->InsertNextTypedTuple(colours_[k / 3].data());
+    colours->SetNumberOfTuples(count);
+    for (vtkIdType k = 0; k < count; ++k) {
+        const auto corner = static_cast<std::size_t>(k);
+        points->SetPoint(k, corners_[corner].x(), corners_[corner].y(), 0.0);
+        corners_of_triangles->SetValue(k, static_cast<int>(k));
+        colours->SetTypedTuple(k, colours_[corner / 3].data());
     }
+    vtkNew<vtkCellArray> triangles;
+    triangles->SetData(3, corners_of_triangles);
     vtkNew<vtkPolyData> shapes;
     shapes->SetPoints(points);
     shapes->SetPolys(triangles);

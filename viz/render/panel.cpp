@@ -139,16 +139,14 @@ void draw_box(Page& page, const Frame& frame, const Placement& place) {
 }  // namespace
 
 void draw_chains(Page& page, std::span<const Chain> chains, double thinnest_edged) {
-    // Below the width that pixels can show evenly, lines and edges get paler instead of thinner.
+    // Below the width that pixels can show evenly, a line gets paler instead of thinner, its edge with it.
     const auto stroke = [&](const Chain& chain, double edge, Colour colour) {
-        const double even_edge = edge > 0.0 ? std::max(edge, thinnest_edge) : 0.0;
-        double opacity = std::min(1.0, chain.width / even_width);
-        if (edge > 0.0) opacity *= edge / even_edge;
-        colour[3] = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
-        page.stroke(chain.line, std::max(chain.width, even_width) + 2.0 * even_edge, colour, false);
+        colour[3] = static_cast<std::uint8_t>(std::lround(255.0 * std::min(1.0, chain.width / even_width)));
+        page.stroke(chain.line, std::max(chain.width, even_width) + 2.0 * edge, colour, false);
     };
     for (const Chain& chain : chains)
-        if (chain.width >= thinnest_edged) stroke(chain, std::min(thickest_edge, 0.3 * chain.width), white);
+        if (chain.width >= thinnest_edged)
+            stroke(chain, std::clamp(0.3 * chain.width, thinnest_edge, thickest_edge), white);
     for (const Chain& chain : chains) stroke(chain, 0.0, black);
 }
 
@@ -160,7 +158,8 @@ void draw_panel(Page& page, const Frame& frame, const PanelScale& scale, const V
         draw_parts(page, frame, scale, place);
     else
         draw_grains(page, frame, scale, place);
-    draw_chains(page, make_chains(frame, scale, place), frame.parts ? even_width : 0.0);
+    const bool many = frame.parts || scale.forces(frame).widest_line * scale.pixels_per_metre < even_width;
+    draw_chains(page, make_chains(frame, scale, place), many ? even_width : 0.0);
     draw_box(page, frame, place);
     if (scale.window.is_whole()) return;
     page.unclip();
