@@ -109,6 +109,19 @@ TEST_P(Pictures, NumberedPicturesHaveOneFixedScale) {
     EXPECT_NEAR(first.scale / last.scale, 1.0, 0.01);
 }
 
+/// Options with several numbers take no RUN behind them for one, with commas or without.
+TEST_P(Pictures, OptionsMayStandBeforeTheRuns) {
+    write_hand_made_run(path_of("run"), 2, 2);
+    const std::string to = path_of("run") + " --out " + path_of("");
+    for (const std::string options :
+         {"--range 0,1 --at first", "--range=-1,-0.5 --at first,last", "--range -1 1",
+          "--window 0,1,0,0.5 --range 0 1 --at-phi 0.9", "--window 0 1 0 0.5"}) {
+        const auto drawn = render(options + " " + to);
+        if (missing_graphics(drawn)) GTEST_SKIP() << drawn.err;
+        EXPECT_EQ(drawn.exit_code, 0) << options << ": " << drawn.err;
+    }
+}
+
 TEST_P(Pictures, ARunThatIsGoingOnIsDrawnAsFarAsItIs) {
     write_hand_made_run(path_of("run"), 3, 2);
     std::ofstream(path_of("run") + "/history.csv", std::ios::app) << "40,400,0.2";  // a row half written

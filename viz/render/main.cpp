@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "common/errors.hpp"
 #include "viz/render/frames_command.hpp"
@@ -15,6 +18,29 @@ namespace {
 int report(const char* text, int code) {
     fmt::print(stderr, "softgrain-render: {}\n", text);
     return code;
+}
+
+/// The arguments, last one first as CLI11 wants them, with the numbers of these options apart: before it
+/// knows of commas it counts words, and would take a RUN behind them for a number.
+std::vector<std::string> arguments(int argc, char** argv) {
+    std::vector<std::string> words;
+    std::string before;
+    for (int k = 1; k < argc; ++k) {
+        std::string word = argv[k];
+        const std::string option = word.substr(0, word.find('='));
+        const auto takes_numbers = [](const std::string& name) {
+            return name == "--range" || name == "--window";
+        };
+        if (takes_numbers(before) || (takes_numbers(option) && option != word)) {
+            std::size_t comma = 0;
+            for (; (comma = word.find(',')) != std::string::npos; word.erase(0, comma + 1))
+                words.push_back(word.substr(0, comma));
+        }
+        words.push_back(word);
+        before = argv[k];
+    }
+    std::reverse(words.begin(), words.end());
+    return words;
 }
 
 void style_options(CLI::App& command, softgrain::DrawingStyle& style) {
@@ -37,7 +63,8 @@ void style_options(CLI::App& command, softgrain::DrawingStyle& style) {
 
 CLI::Option* stage_option(CLI::App& command, std::vector<double>& at_packing_fraction) {
     return command.add_option("--at-phi", at_packing_fraction, "Stages by packing fraction in history.csv")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
 }
 
 void pictures_options(CLI::App& app, softgrain::PicturesRequest& request) {
@@ -47,7 +74,8 @@ void pictures_options(CLI::App& app, softgrain::PicturesRequest& request) {
     auto* at = app.add_option("--at", request.at,
                               "first, last (that all runs have reached), all (numbered pictures), or "
                               "fractions of the loading, 1 being the end of the longest run; default last")
-                   ->delimiter(',');
+                   ->delimiter(',')
+                   ->allow_extra_args(false);
     stage_option(app, request.at_packing_fraction)->excludes(at);
     style_options(app, request.style);
     app.add_flag("--film", request.film, "All stages as numbered pictures and, by ffmpeg, as an MP4");
@@ -91,7 +119,7 @@ int main(int argc, char** argv) {
     plot->add_option("--out", plot_file, "File to write, ending in .png")->required();
 
     try {
-        app.parse(argc, argv);
+        app.parse(arguments(argc, argv));
     } catch (const CLI::CallForHelp& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {

@@ -20,10 +20,14 @@ bool is_run(const fs::path& folder) {
     return fs::exists(folder / frames_file);
 }
 
-/// The last name of a path that may end in '/' or be '.'.
+/// Without '.', '..' and '/' at the end, so that it has a name.
+fs::path full_path(const fs::path& folder) {
+    const fs::path full = fs::absolute(folder).lexically_normal();
+    return full.has_filename() ? full : full.parent_path();
+}
+
 std::string folder_name(const fs::path& folder) {
-    const fs::path full = fs::weakly_canonical(folder);
-    return full.filename().string();
+    return full_path(folder).filename().string();
 }
 
 std::optional<NamedRun> split_label(const std::string& text) {
@@ -94,7 +98,8 @@ std::vector<NamedRun> find_runs(const std::vector<std::string>& words) {
     for (NamedRun& run : runs) {
         if (!run.label.empty()) continue;
         run.label = folder_name(run.folder);
-        if (count[run.label] > 1) run.label = folder_name(run.folder / "..") + "/" + run.label;
+        if (count[run.label] > 1)
+            run.label = folder_name(full_path(run.folder).parent_path()) + "/" + run.label;
     }
     std::set<std::string> labels;
     for (const NamedRun& run : runs)
