@@ -48,7 +48,8 @@ void style_options(CLI::App& command, softgrain::DrawingStyle& style) {
         ->capture_default_str();
     command.add_option("--range", style.range, "MIN,MAX of the colours; else 2nd to 98th percentile with 0")
         ->delimiter(',')
-        ->expected(2);
+        ->expected(2)
+        ->allow_extra_args(false);
     command.add_flag("--parts", style.parts,
                      "Draw the parts of grains and the forces between them, of runs that wrote them; "
                      "--field may then be point data of parts.pvd");
@@ -56,7 +57,8 @@ void style_options(CLI::App& command, softgrain::DrawingStyle& style) {
         .add_option("--window", style.window,
                     "LEFT,RIGHT,BOTTOM,TOP: draw this part only, as shares of width and height, 0 to 1")
         ->delimiter(',')
-        ->expected(4);
+        ->expected(4)
+        ->allow_extra_args(false);
     command.add_option("--width", style.width, "Width of each picture [pixels]; 0: by what is on it")
         ->capture_default_str();
 }

@@ -54,7 +54,7 @@ std::string number_text(double value) {
 /// A line over a panel, made smaller if it would run into its neighbours.
 void draw_line(Page& page, const Layout& l, const Vec2& centre, const std::string& words, double size,
                bool bold, Colour colour) {
-    const double room = l.panel_width + 0.6 * l.gap;
+    const double room = l.panel_width;
     const double wide = text_width(words, size, bold);
     const double fitted = wide > room ? std::floor(size * room / wide) : size;
     page.text(centre, words, {fitted, Align::centre, Align::centre, false, bold, colour});
