@@ -94,6 +94,20 @@ void draw_point(Page& page, const Vec2& base, double height, double reach, Colou
     page.stroke(corners, 1.5, black, false);
 }
 
+/// Every second of the round ticks, or fewer, if their texts would run into each other.
+std::vector<double> ticks_with_room(const ColourRange& range, double width, double font) {
+    std::vector<double> ticks = round_ticks(range.min, range.max);
+    while (ticks.size() > 2) {
+        const double spacing = ticks[1] - ticks[0];
+        double widest = 0.0;
+        for (const double tick : ticks)
+            widest = std::max(widest, text_width(tick_text(tick, spacing), font, false));
+        if (widest + 0.6 * font <= width * spacing / (range.max - range.min)) break;
+        std::erase_if(ticks, [&](double tick) { return std::lround(tick / spacing) % 2 != 0; });
+    }
+    return ticks;
+}
+
 void draw_colour_bar(Page& page, const SheetScale& scale, const Layout& l, double x, double y, double width) {
     const double thickness = 1.1 * l.font;
     constexpr int steps = 256;
@@ -111,8 +125,8 @@ void draw_colour_bar(Page& page, const SheetScale& scale, const Layout& l, doubl
     if (!scale.colours.below) page.stroke(std::vector<Vec2>{{x, y}, {x, y + thickness}}, 1.5, black, false);
     if (!scale.colours.above)
         page.stroke(std::vector<Vec2>{{x + width, y}, {x + width, y + thickness}}, 1.5, black, false);
-    const auto ticks = round_ticks(scale.colours.min, scale.colours.max);
-    const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : scale.colours.max;
+    const auto ticks = ticks_with_room(range, width, l.font);
+    const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : range.max;
     for (const double tick : ticks) {
         const double at = x + width * scale.colours.fraction(tick);
         page.stroke(std::vector<Vec2>{{at, y}, {at, y - 0.3 * l.font}}, 1.5, black, false);
