@@ -19,7 +19,7 @@ bool grows(const std::vector<double>& values) {
     return values.size() < 2 || (forth > least_growth && back <= tremble * forth);
 }
 
-/// Largest and smallest of the finite values.
+/// Largest of the finite values.
 double farthest(const std::vector<double>& values) {
     double largest = -INFINITY;
     for (const double v : values)

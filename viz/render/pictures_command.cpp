@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <cstdio>
+#include <optional>
 #include <regex>
 
 #include "common/errors.hpp"
@@ -143,7 +144,7 @@ SheetScale common_scale(const PicturesRequest& request, const std::vector<RunRea
     return gatherer.scale();
 }
 
-/// Full rows of the fewest columns that keep the number of rows.
+/// Four in a row, more in a square; as few as keep the number of rows.
 std::size_t columns_for(std::size_t panels) {
     std::size_t columns = std::min(panels, most_columns);
     while (columns * columns < panels) ++columns;
@@ -195,7 +196,6 @@ void film(const PicturesRequest& request, const Places& places, std::size_t pict
 
 /// Which stage `last` was, if one of the runs is the reason.
 void explain_last(const std::vector<RunReader>& runs, const LoadingPath& path) {
-    if (!path.match(0, path.last_common()).beyond_end && runs.size() == 1) return;
     std::string short_ones;
     for (std::size_t r = 0; r < runs.size(); ++r)
         if (path.match(r, path.end()).beyond_end)
