@@ -7,6 +7,8 @@
 
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "viz/plot_data.hpp"
+#include "viz/plot_svg.hpp"
 #include "viz/run_program.hpp"
 
 namespace softgrain {
@@ -69,6 +71,11 @@ std::optional<std::string> render_plot(const PlotSpec& spec, const fs::path& out
         spec_file.replace_extension(".json");
         make_directories(folder);
         write_file_atomically(spec_file, plot_spec_to_json(beside));
+        if (out.extension() == ".svg") {
+            load_plot_data(beside, folder);
+            write_file_atomically(out, plot_svg(beside));
+            return std::nullopt;
+        }
         return run_renderer({"plot", spec_file.string(), "--out", out.string()});
     } catch (const std::exception& error) {
         return error.what();

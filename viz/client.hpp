@@ -35,7 +35,8 @@ std::filesystem::path find_renderer();
 /// Draws the frames. Returns why it failed, if it did.
 std::optional<std::string> render_frames(const FramesSpec& spec);
 
-/// Draws the plot as `out` (.png), with its spec beside it as .json. Returns why it failed, if it did.
+/// Draws the plot as `out` (.png, or .svg, which needs no renderer), with its spec beside it as .json.
+/// Returns why it failed, if it did.
 std::optional<std::string> render_plot(const PlotSpec& spec, const std::filesystem::path& out);
 
 }  // namespace softgrain

@@ -9,8 +9,8 @@
 #include "common/errors.hpp"
 #include "common/observables/shape.hpp"
 #include "hand_made_grains.hpp"
-#include "viz/render/csv_table.hpp"
-#include "viz/render/plot_data.hpp"
+#include "viz/csv_table.hpp"
+#include "viz/plot_data.hpp"
 #include "viz/render/scale.hpp"
 #include "viz/render/triangulate.hpp"
 

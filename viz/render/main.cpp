@@ -116,9 +116,9 @@ int main(int argc, char** argv) {
                                           "on one sheet (OUT/LABEL_1.png ..., OUT/sheet.png)");
     frames_options(*frames, frames_request);
     std::filesystem::path spec_file, plot_file;
-    CLI::App* plot = app.add_subcommand("plot", "A line plot as PNG");
+    CLI::App* plot = app.add_subcommand("plot", "A line plot as PNG or SVG");
     plot->add_option("SPEC", spec_file, "JSON file; see viz/README.md")->required();
-    plot->add_option("--out", plot_file, "File to write, ending in .png")->required();
+    plot->add_option("--out", plot_file, "File to write, ending in .png or .svg")->required();
 
     try {
         app.parse(arguments(argc, argv));

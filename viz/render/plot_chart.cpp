@@ -13,31 +13,18 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
-#include "viz/render/plot_data.hpp"
+#include "viz/plot_data.hpp"
+#include "viz/plot_look.hpp"
 #include "viz/render/scale.hpp"
 
 namespace softgrain {
 namespace {
 
-/// Okabe & Ito (2008), distinct for every colour vision.
-constexpr std::array<Colour, 7> palette{{{0, 114, 178, 255},
-                                         {213, 94, 0, 255},
-                                         {0, 158, 115, 255},
-                                         {204, 121, 167, 255},
-                                         {0, 0, 0, 255},
-                                         {230, 159, 0, 255},
-                                         {86, 180, 233, 255}}};
-constexpr std::uint8_t band_opacity = 50;
 /// Around the chart, times the font size.
 constexpr double room_left = 2.0, room_right = 1.2, room_below = 2.0, room_above = 3.0;
-
-double font_size(const PlotSpec& spec) {
-    return std::min(spec.width / 50.0, spec.height / 36.0);
-}
 
 vtkSmartPointer<vtkTable> make_table(
     std::initializer_list<std::pair<const char*, const std::vector<double>*>> columns) {
@@ -90,7 +77,7 @@ void add_band(vtkChartXY& chart, const PlotSeries& series, Colour colour) {
     band->SetInputArray(0, "x");
     band->SetInputArray(1, "lower");
     band->SetInputArray(2, "upper");
-    band->GetBrush()->SetColor(colour[0], colour[1], colour[2], band_opacity);
+    band->GetBrush()->SetColor(colour[0], colour[1], colour[2], look::band_opacity);
     band->GetPen()->SetLineType(vtkPen::NO_PEN);
     band->SetLegendVisibility(false);
 }
@@ -101,10 +88,10 @@ void add_line(vtkChartXY& chart, const PlotSeries& series, Colour colour, double
     plot->SetLabel(series.label);
     plot->SetLegendVisibility(!series.label.empty());
     plot->SetColor(colour[0], colour[1], colour[2], colour[3]);
-    plot->SetWidth(static_cast<float>(0.13 * font * series.width));
+    plot->SetWidth(static_cast<float>(look::line_width * font * series.width));
     plot->GetPen()->SetLineType(pen_type(series.line));
     plot->SetMarkerStyle(marker_type(series.marker));
-    plot->SetMarkerSize(static_cast<float>(0.55 * font));
+    plot->SetMarkerSize(static_cast<float>(look::marker_size * font));
 }
 
 /// Few round ticks; the chart's own are many and of uneven length. Logarithmic axes keep the chart's.
@@ -125,11 +112,11 @@ void set_axis(vtkAxis& axis, const PlotAxis& spec, const PlotRange& range, doubl
     axis.SetBehavior(vtkAxis::FIXED);
     axis.SetLabelOffset(static_cast<float>(0.45 * font));
     axis.SetUnscaledRange(range.min, range.max);
-    set_font(*axis.GetLabelProperties(), 0.9 * font, false);
-    axis.GetGridPen()->SetColor(225, 225, 225);
+    set_font(*axis.GetLabelProperties(), look::small_text * font, false);
+    axis.GetGridPen()->SetColor(look::grid_grey, look::grid_grey, look::grid_grey);
     axis.GetGridPen()->SetWidth(1.0F);
     if (!spec.logarithmic) set_ticks(axis, range);
-    axis.GetPen()->SetWidth(static_cast<float>(0.07 * font));
+    axis.GetPen()->SetWidth(static_cast<float>(look::axis_width * font));
 }
 
 void place_legend(vtkChartXY& chart, const PlotSpec& spec, double font) {
@@ -137,16 +124,16 @@ void place_legend(vtkChartXY& chart, const PlotSpec& spec, double font) {
                                         [](const PlotSeries& s) { return !s.label.empty(); });
     chart.SetShowLegend(spec.legend != "none" && labelled > 0);
     vtkChartLegend& legend = *chart.GetLegend();
-    set_font(*legend.GetLabelProperties(), 0.9 * font, false);
-    legend.SetLabelSize(static_cast<int>(std::lround(0.9 * font)));
-    legend.SetSymbolWidth(static_cast<int>(std::lround(2.2 * font)));
-    legend.SetPadding(static_cast<int>(std::lround(0.4 * font)));
-    legend.GetPen()->SetColor(200, 200, 200);
-    legend.GetBrush()->SetColor(255, 255, 255, 225);
+    set_font(*legend.GetLabelProperties(), look::small_text * font, false);
+    legend.SetLabelSize(static_cast<int>(std::lround(look::small_text * font)));
+    legend.SetSymbolWidth(static_cast<int>(std::lround(look::legend_symbol * font)));
+    legend.SetPadding(static_cast<int>(std::lround(look::legend_padding * font)));
+    legend.GetPen()->SetColor(look::legend_edge_grey, look::legend_edge_grey, look::legend_edge_grey);
+    legend.GetBrush()->SetColor(255, 255, 255, look::legend_opacity);
     legend.SetInline(true);
     double widest = 0.0;
     for (const PlotSeries& series : spec.series)
-        widest = std::max(widest, text_width(series.label, 0.9 * font, false));
+        widest = std::max(widest, text_width(series.label, look::small_text * font, false));
     const double box_width = (widest + 4.0 * font) / (0.85 * spec.width);
     const double box_height = 1.5 * font * static_cast<double>(labelled + 1) / (0.8 * spec.height);
     const std::string corner =
@@ -159,7 +146,7 @@ void place_legend(vtkChartXY& chart, const PlotSpec& spec, double font) {
 }  // namespace
 
 vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
-    const double font = font_size(spec);
+    const double font = look::font_size(spec);
     auto chart = vtkSmartPointer<vtkChartXY>::New();
     const float bottom = static_cast<float>(room_below * font);
     const float left = static_cast<float>(room_left * font);
@@ -172,9 +159,7 @@ vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
     set_axis(*chart->GetAxis(vtkAxis::LEFT), spec.y, y_range(spec), font);
     std::size_t number = 0;
     for (const PlotSeries& series : spec.series) {
-        const auto index = series.colour ? static_cast<std::size_t>(*series.colour) : number;
-        ++number;
-        const Colour colour = palette[index % palette.size()];
+        const Colour colour = look::colour_of(series, number++);
         add_band(*chart, series, colour);
         add_line(*chart, series, colour, font);
     }
@@ -183,10 +168,10 @@ vtkSmartPointer<vtkChartXY> make_chart(const PlotSpec& spec) {
 }
 
 Page make_titles(const PlotSpec& spec) {
-    const double font = font_size(spec);
+    const double font = look::font_size(spec);
     Page page(spec.width, spec.height);
     page.text({spec.width / 2.0, spec.height - 0.5 * room_above * font}, spec.title,
-              {1.15 * font, Align::centre, Align::centre, false, true});
+              {look::title_text * font, Align::centre, Align::centre, false, true});
     page.text({spec.width / 2.0, 0.6 * room_below * font}, spec.x.label,
               {font, Align::centre, Align::centre});
     page.text({0.6 * room_left * font, spec.height / 2.0}, spec.y.label,

@@ -12,10 +12,11 @@
 
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "viz/plot_data.hpp"
+#include "viz/plot_svg.hpp"
 #include "viz/render/graphics.hpp"
 #include "viz/render/page.hpp"
 #include "viz/render/plot_chart.hpp"
-#include "viz/render/plot_data.hpp"
 
 namespace softgrain {
 namespace fs = std::filesystem;
@@ -30,9 +31,13 @@ std::string read_text(const fs::path& path) {
 }  // namespace
 
 void draw_plot(const fs::path& spec_file, const fs::path& out) {
-    if (out.extension() != ".png") throw InputError(fmt::format("--out {}: must end in .png", out.string()));
+    const bool as_svg = out.extension() == ".svg";
+    if (!as_svg && out.extension() != ".png")
+        throw InputError(fmt::format("--out {}: must end in .png or .svg", out.string()));
     PlotSpec spec = plot_spec_from_json(read_text(spec_file), spec_file.string());
     load_plot_data(spec, spec_file.parent_path());
+    if (out.has_parent_path()) make_directories(out.parent_path());
+    if (as_svg) return write_file_atomically(out, plot_svg(spec));
     vtkNew<vtkContextActor> actor;
     actor->GetScene()->AddItem(make_chart(spec));
     vtkNew<vtkRenderer> renderer;
@@ -41,7 +46,6 @@ void draw_plot(const fs::path& spec_file, const fs::path& out) {
     make_titles(spec).add_to(*renderer);
     const auto graphics = open_graphics();
     const auto image = draw_scene(*graphics, *renderer, spec.width, spec.height);
-    if (out.has_parent_path()) make_directories(out.parent_path());
     write_png(out, *image);
 }
 

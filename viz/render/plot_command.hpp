@@ -4,7 +4,7 @@
 
 namespace softgrain {
 
-/// Writes `out` (.png). Throws InputError, OutputError.
+/// Writes `out`, PNG or SVG by its ending. Throws InputError, OutputError.
 void draw_plot(const std::filesystem::path& spec_file, const std::filesystem::path& out);
 
 }  // namespace softgrain

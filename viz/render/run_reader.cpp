@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "viz/render/csv_table.hpp"
+#include "viz/csv_table.hpp"
 #include "viz/render/vtk_errors.hpp"
 
 namespace softgrain {

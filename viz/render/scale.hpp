@@ -1,9 +1,9 @@
 #pragma once
-// Colours, their range, and round numbers for scales.
-#include <string>
+// Colours and their range.
 #include <vector>
 
 #include "viz/render/page.hpp"
+#include "viz/ticks.hpp"
 
 namespace softgrain {
 
@@ -33,12 +33,5 @@ ColourRange given_range(const std::vector<double>& values, double min, double ma
 
 /// Value below which this share of the values lies; 0 for no values.
 double percentile(std::vector<double>& values, double share);
-
-/// 4 to 8 round numbers within [min, max].
-std::vector<double> round_ticks(double min, double max);
-/// Largest 1, 2 or 5 times a power of ten that is not above `value` > 0.
-double round_down(double value);
-/// Short text of a tick value among its neighbours.
-std::string tick_text(double value, double spacing);
 
 }  // namespace softgrain

@@ -1,4 +1,4 @@
-#include "viz/render/csv_table.hpp"
+#include "viz/csv_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "viz/render/plot_data.hpp"
+#include "viz/plot_data.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/errors.hpp"
-#include "viz/render/csv_table.hpp"
+#include "viz/csv_table.hpp"
 
 namespace softgrain {
 namespace {
@@ -61,12 +61,6 @@ PlotRange widen(const Bounds& bounds, const PlotAxis& axis) {
     return {axis.min.value_or(range.min), axis.max.value_or(range.max)};
 }
 
-/// Place of a value within a range, 0 to 1.
-double place(double value, const PlotRange& range, bool logarithmic) {
-    if (!logarithmic) return (value - range.min) / (range.max - range.min);
-    return std::log(value / range.min) / std::log(range.max / range.min);
-}
-
 }  // namespace
 
 void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder) {
@@ -91,6 +85,11 @@ void load_plot_data(PlotSpec& spec, const std::filesystem::path& folder) {
     if (!any) throw InputError("the plot has no point that can be drawn");
 }
 
+double place_on_axis(double value, const PlotRange& range, bool logarithmic) {
+    if (!logarithmic) return (value - range.min) / (range.max - range.min);
+    return std::log(value / range.min) / std::log(range.max / range.min);
+}
+
 PlotRange x_range(const PlotSpec& spec) {
     return widen(x_bounds(spec), spec.x);
 }
@@ -113,10 +112,10 @@ std::string emptiest_corner(const PlotSpec& spec, double width, double height) {
                                    {"bottom_left", false, false, 0.0}}};
     for (const PlotSeries& series : spec.series)
         for (std::size_t k = 0; k < series.x.size(); ++k) {
-            const double u = place(series.x[k], x, spec.x.logarithmic);
+            const double u = place_on_axis(series.x[k], x, spec.x.logarithmic);
             for (const std::vector<double>* values : {&series.y, &series.lower, &series.upper}) {
                 if (k >= values->size()) continue;
-                const double v = place((*values)[k], y, spec.y.logarithmic);
+                const double v = place_on_axis((*values)[k], y, spec.y.logarithmic);
                 for (Corner& corner : corners)
                     if ((corner.right ? u > 1.0 - width : u < width) &&
                         (corner.top ? v > 1.0 - height : v < height))

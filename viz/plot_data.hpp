@@ -19,6 +19,9 @@ struct PlotRange {
 PlotRange x_range(const PlotSpec& spec);
 PlotRange y_range(const PlotSpec& spec);
 
+/// Place of a value within a range: 0 at its minimum, 1 at its maximum.
+double place_on_axis(double value, const PlotRange& range, bool logarithmic);
+
 /// Corner with the fewest points of the data in a box of `width` x `height`, fractions of the plot area:
 /// top_left, top_right, bottom_left or bottom_right.
 std::string emptiest_corner(const PlotSpec& spec, double width, double height);
