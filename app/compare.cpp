@@ -10,6 +10,8 @@
 #include "app/comparison_table.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
+#include "app/report/curves.hpp"
+#include "app/report/page.hpp"
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/scenario_file.hpp"
@@ -21,6 +23,8 @@ namespace softgrain {
 namespace {
 
 constexpr int table_columns = 7;
+constexpr const char* page_name = "report.html";
+constexpr std::size_t most_picture_bytes = 4'200'000;  ///< in the page, where they take a third more
 
 /// A method whose run is over already is not run again by --resume.
 std::optional<RunReport> finished_run(const std::filesystem::path& folder) {
@@ -43,37 +47,11 @@ MethodResult run_one(const CompareRequest& request, const Scenario& scenario, co
                                          .threads = request.threads,
                                          .resume = request.resume,
                                          .force = request.force,
-                                         .quiet = request.quiet});
+                                         .quiet = request.quiet,
+                                         .measures = {"forces"}});
     }
     if (result.report.steps > 0) result.history = read_history(folder / "history.csv");
     return result;
-}
-
-PlotSpec curve_plot(const CompareRequest& request, const std::vector<MethodResult>& results,
-                    const std::optional<Reference>& reference, std::string_view column,
-                    const std::string& label, bool logarithmic) {
-    PlotSpec plot;
-    plot.title = request.scenario.title;
-    plot.x.label = "packing fraction";
-    plot.y.label = label;
-    plot.y.logarithmic = logarithmic;
-    const auto add = [&](const std::string& name, const History& history) {
-        PlotSeries series;
-        series.label = name;
-        series.x = history.column("packing_fraction");
-        series.y = history.column(column);
-        const double largest = *std::max_element(series.y.begin(), series.y.end());
-        if (logarithmic)  // rounding before the first contact is no stress
-            for (double& y : series.y) y = y > 1e-4 * largest ? y : std::nan("");
-        plot.series.push_back(std::move(series));
-    };
-    for (const MethodResult& result : results)
-        if (result.history) add(result.report.method, *result.history);
-    if (reference) {
-        add(reference->name, reference->history);
-        plot.series.back().line = LineStyle::dashed;
-    }
-    return plot;
 }
 
 /// Plots and pictures; a comparison without them is still one, so a failure is said and not thrown.
@@ -82,11 +60,17 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
     const auto complain = [](const std::optional<std::string>& error) {
         if (error) fmt::print(stderr, "no picture: {}\n", *error);
     };
-    complain(render_plot(curve_plot(request, results, reference, "mean_stress", "mean stress [N/m]", true),
-                         request.folder / "stress.png"));
-    complain(render_plot(
-        curve_plot(request, results, reference, "coordination_number", "coordination number Z", false),
-        request.folder / "coordination.png"));
+    const auto plot = [&](std::string_view column, const std::string& label, bool logarithmic,
+                          const std::string& name) {
+        const PlotSpec spec =
+            report::curve_plot(request.scenario.title, results, reference, column, label, logarithmic);
+        if (spec.series.empty()) return;
+        complain(render_plot(spec, request.folder / (name + ".svg")));
+        if (request.pictures) complain(render_plot(spec, request.folder / (name + ".png")));
+    };
+    plot("mean_stress", "mean stress [N/m]", true, "stress");
+    plot("coordination_number", "coordination number Z", false, "coordination");
+    if (!request.pictures) return;
     FramesSpec frames;
     for (const MethodResult& result : results)
         if (result.history)
@@ -98,6 +82,17 @@ void draw(const CompareRequest& request, const std::vector<MethodResult>& result
     frames.parts = request.scenario.sampling.parts;
     frames.out = request.folder / "pictures";
     complain(render_frames(frames));
+}
+
+void write_page(const CompareRequest& request, const Packing& packing,
+                const std::vector<MethodResult>& results, const std::optional<Reference>& reference,
+                const std::optional<CalibratedScenario>& calibrated) {
+    report::PageContent content{request.scenario, packing, request.folder, results, reference, {}, {}};
+    if (calibrated) content.notes.push_back(calibrated->said);
+    if (request.pictures)
+        content.pictures = report::draw_pictures(results, request.folder, request.scenario.sampling.parts,
+                                                 most_picture_bytes);
+    write_file_atomically(request.folder / page_name, report::page(content));
 }
 
 }  // namespace
@@ -144,8 +139,9 @@ int compare(const CompareRequest& request) {
     write_file_atomically(request.folder / "comparison.md",
                           fmt::format("# {}\n\n{}", request.scenario.title, table));
     write_file_atomically(request.folder / "comparison.csv", comparison_csv(results, phi));
-    if (request.pictures) draw(request, results, reference);
-    fmt::print("Results in {}\n", request.folder.string());
+    draw(request, results, reference);
+    write_page(request, packing, results, reference, calibrated);
+    fmt::print("Results in {}, all of them in {}\n", request.folder.string(), page_name);
     return exit_code;
 }
 

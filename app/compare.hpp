@@ -19,12 +19,12 @@ struct CompareRequest {
     bool calibrate = false;  ///< give the aggregates of bpm the yield stress of the material
     bool resume = false;
     bool force = false;
-    bool pictures = true;
+    bool pictures = true;  ///< PNG files, and pictures in the report
     bool quiet = false;
 };
 
 /// Runs every method into `folder/<method>/` and writes initial_packing.csv, comparison.md, comparison.csv,
-/// plots and pictures. Returns the exit code: 0, 3 if a method diverged, 130 or 143 if stopped.
+/// plots, pictures and report.html. Returns the exit code: 0, 3 if a method diverged, 130 or 143 if stopped.
 int compare(const CompareRequest& request);
 
 }  // namespace softgrain

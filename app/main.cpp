@@ -245,7 +245,8 @@ int command_line(int argc, char** argv) {
         "--calibrate", a.calibrate,
         "choose bpm.attraction_stress so that aggregates yield at material.yield_stress, or "
         "at 0.05 E if it is not given");
-    compare_app->add_flag("--no-pictures", a.no_pictures, "numbers only, no plots and pictures");
+    compare_app->add_flag("--no-pictures", a.no_pictures,
+                          "no pictures and plots as SVG only, also in report.html");
 
     CLI::App* fan = add("fan", "probe one state in many directions and draw the response envelope",
                         fan_command, "fan scenarios/probes/fan.toml --methods rigid_dem --out results/fan");

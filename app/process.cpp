@@ -1,11 +1,15 @@
 #include "app/process.hpp"
 
+#include <fmt/format.h>
 #include <malloc.h>
+#include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -57,6 +61,22 @@ std::uint64_t peak_memory() {
         return kilobytes * 1024;
     }
     return 0;
+}
+
+std::string processor_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name") && line.find(": ") != line.npos)
+            return fmt::format("{} x {}", omp_get_num_procs(), line.substr(line.find(": ") + 2));
+    return "";
+}
+
+std::string date_and_time() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    std::array<char, 32> text{};
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &utc)};
 }
 
 bool stderr_is_terminal() {

@@ -2,6 +2,7 @@
 // What the operating system knows of this process: clocks, memory, signals, terminal.
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 namespace softgrain {
 
@@ -16,6 +17,9 @@ double cpu_clock();   ///< user + system time of all threads [s]
 /// Forget the largest memory use so far, so that the next call of peak_memory() is about what follows.
 void reset_peak_memory();
 std::uint64_t peak_memory();  ///< largest resident set since the last reset [bytes]; 0 if unknown
+
+std::string processor_name();  ///< "2 x NAME", the number of those this process may use; empty if unknown
+std::string date_and_time();   ///< now, "2024-05-01 12:30 UTC"
 
 bool stderr_is_terminal();
 

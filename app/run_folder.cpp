@@ -30,13 +30,15 @@ struct Clocks {
 
 void write_report(const RunRequest& request, const RunReport& report, const RunState& state) {
     const json text{
-        {"version", version},
-        {"commit", commit},
+        {"version", report.version},
+        {"commit", report.commit},
         {"method", report.method},
         {"scenario", request.scenario.source.string()},
         {"title", request.scenario.title},
         {"seed", request.scenario.seed},
-        {"threads", request.threads},
+        {"threads", report.threads},
+        {"processor", report.processor},
+        {"finished", report.finished},
         {"ended", report.ended},
         {"exit_code", report.exit_code},
         {"grains", report.grains},
@@ -83,6 +85,11 @@ RunReport run_into_folder(const RunRequest& request) {
     RunReport report;
     report.method = request.method.name;
     report.grains = request.packing.size();
+    report.version = version;
+    report.commit = commit;
+    report.threads = request.threads;
+    report.processor = processor_name();
+    report.finished = date_and_time();
 
     omp_set_num_threads(request.threads);
     reset_peak_memory();
@@ -127,8 +134,9 @@ RunReport run_into_folder(const RunRequest& request) {
     if (scenario.sampling.contacts) observers.push_back(&contacts);
     if (scenario.sampling.parts) observers.push_back(&parts);
     std::optional<MeasureWriter> measures;
-    if (!scenario.sampling.measures.empty())
-        observers.push_back(&measures.emplace(request.folder, scenario.sampling.measures));
+    std::vector<std::string> measured = scenario.sampling.measures;
+    measured.insert(measured.end(), request.measures.begin(), request.measures.end());
+    if (!measured.empty()) observers.push_back(&measures.emplace(request.folder, measured));
 
     TimeLoop run(scenario, request.packing, *solver, observers);
     if (earlier) run.resume(file.state);
@@ -174,6 +182,7 @@ RunReport run_into_folder(const RunRequest& request) {
     report.wall_time = wall_before + wall_clock() - begin.wall;
     report.cpu_time = cpu_before + cpu_clock() - begin.cpu;
     report.peak_memory = static_cast<double>(peak_memory());
+    report.finished = date_and_time();
     write_report(request, report, run.state());
     return report;
 }
@@ -194,6 +203,11 @@ RunReport read_report(const std::filesystem::path& folder) {
         report.wall_time = text.at("wall_time");
         report.cpu_time = text.at("cpu_time");
         report.peak_memory = text.at("peak_memory");
+        report.version = text.at("version");
+        report.commit = text.at("commit");
+        report.threads = text.at("threads");
+        report.processor = text.value("processor", "");
+        report.finished = text.value("finished", "");
         return report;
     } catch (const json::exception& error) {
         throw InputError(fmt::format("{}: damaged: {}", path.string(), error.what()));

@@ -2,6 +2,7 @@
 // One method, one scenario, one folder: history.csv, run.h5, VTK series, scenario.toml, run.json.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common/packing/packing.hpp"
 #include "common/scenario.hpp"
@@ -21,6 +22,7 @@ struct RunRequest {
     bool force = false;               ///< replace results that are there
     double checkpoint_period = 60.0;  ///< wall time between checkpoints [s]
     bool quiet = false;
+    std::vector<std::string> measures = {};  ///< to write besides those of the scenario, see MeasureWriter
 };
 
 struct RunReport {
@@ -33,6 +35,10 @@ struct RunReport {
     double wall_time = 0.0;       ///< [s], before and after a resume
     double cpu_time = 0.0;        ///< [s]
     double peak_memory = 0.0;     ///< [bytes]
+    std::string version, commit;  ///< of softgrain
+    int threads = 1;              ///< most that were used
+    std::string processor;        ///< "2 x NAME"; empty if unknown
+    std::string finished;         ///< date and time in UTC; empty if unknown
 };
 
 /// Runs and writes. Divergence, signals and a scenario that the method refuses (exit_code 2, nothing written)

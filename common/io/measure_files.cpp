@@ -30,8 +30,12 @@ std::span<const Vec2> free_centres(const GrainView& view) {
     return view.centroid.first(view.free_size());
 }
 
+std::string time_line(const GrainView& view) {
+    return fmt::format("# time {} s\n", view.time);
+}
+
 std::string forces(const GrainView& view) {
-    std::string text = "force_over_mean,probability_density\n";
+    std::string text = time_line(view) + "force_over_mean,probability_density\n";
     const Histogram histogram = force_distribution(view, force_bin);
     for (std::size_t k = 0; k < histogram.value.size(); ++k)
         text += fmt::format("{:.6g},{}\n", histogram.middle(k), histogram.value[k]);
@@ -49,7 +53,7 @@ std::string chains(const GrainView& view) {
 }
 
 std::string grains(const GrainView& view) {
-    std::string text = fmt::format("# time {} s\ngrain,x,y,vx,vy,radius,driven\n", view.time);
+    std::string text = time_line(view) + "grain,x,y,vx,vy,radius,driven\n";
     for (std::size_t g = 0; g < view.size(); ++g)
         text += fmt::format("{},{},{},{},{},{},{}\n", g, view.centroid[g].x(), view.centroid[g].y(),
                             view.velocity[g].x(), view.velocity[g].y(), radius_of(view, g),

@@ -1,0 +1,29 @@
+#include "app/report/figure.hpp"
+
+#include "common/errors.hpp"
+#include "viz/plot_data.hpp"
+#include "viz/plot_svg.hpp"
+
+namespace softgrain::report {
+namespace {
+
+constexpr int width = 720, height = 560;  ///< [pixels], so that letters are those of the text around
+
+}  // namespace
+
+std::string figures(std::vector<PlotSpec> plots) {
+    std::string out = "<div class=\"plots\">\n";
+    for (PlotSpec& plot : plots) {
+        plot.width = width;
+        plot.height = height;
+        try {
+            load_plot_data(plot, ".");
+        } catch (const InputError&) {
+            continue;
+        }
+        out += "<figure>" + plot_svg(plot) + "</figure>\n";
+    }
+    return out + "</div>\n";
+}
+
+}  // namespace softgrain::report
