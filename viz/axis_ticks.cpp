@@ -11,6 +11,8 @@ namespace softgrain {
 namespace {
 
 constexpr int most_decades = 8;  ///< with numbers
+/// Ends of a logarithmic axis of few decades whose numbers are easier to read without powers.
+constexpr double least_plain = 5e-3, most_plain = 1e4;
 
 /// "2e-05" as 2 times a power, with a true minus.
 AxisTick named_tick(double place, const std::string& text) {
@@ -42,10 +44,12 @@ std::vector<AxisTick> logarithmic_ticks(const PlotRange& range) {
             if (value < range.min * (1.0 - 1e-9) || value > range.max * (1.0 + 1e-9)) continue;
             const double place = place_on_axis(value, range, true);
             const bool named = step == 1 ? decade % every == 0 : few && (step == 2 || step == 5);
-            if (named)
-                ticks.push_back({place, step == 1 ? "" : fmt::format("{}\u00b7", step), decade});
-            else
+            if (!named)
                 ticks.push_back({place});
+            else if (few && range.min >= least_plain && range.max <= most_plain)
+                ticks.push_back({place, fmt::format("{:g}", value)});
+            else
+                ticks.push_back({place, step == 1 ? "" : fmt::format("{}\u00b7", step), decade});
         }
     return ticks;
 }

@@ -42,14 +42,14 @@ std::string grey(std::uint8_t level) {
     return colour_text({level, level, level, 255});
 }
 
-double letters(std::string_view text) {
+double count_letters(std::string_view text) {
     return static_cast<double>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 /// Width of a tick's text, times its size.
 double width_of(const AxisTick& tick) {
-    const double all = letter * letters(tick.mantissa);
+    const double all = letter * count_letters(tick.mantissa);
     return tick.power
                ? all + letter * (2.0 + 0.7 * static_cast<double>(fmt::format("{}", *tick.power).size()))
                : all;
@@ -76,9 +76,9 @@ std::vector<std::pair<std::size_t, std::size_t>> runs(const std::vector<Point>& 
 
 class Drawing {
   public:
-    explicit Drawing(const PlotSpec& spec)
+    Drawing(const PlotSpec& spec, double letters)
         : spec_(spec),
-          font_(look::font_size(spec)),
+          font_(letters * look::font_size(spec)),
           x_(x_range(spec)),
           y_(y_range(spec)),
           x_ticks_(axis_ticks(spec.x, x_)),
@@ -263,7 +263,7 @@ class Drawing {
 
     double legend_width() const {
         double widest = 0.0;
-        for (const PlotSeries& series : spec_.series) widest = std::max(widest, letters(series.label));
+        for (const PlotSeries& series : spec_.series) widest = std::max(widest, count_letters(series.label));
         return (3.0 * look::legend_padding + look::legend_symbol + letter * look::small_text * widest) *
                font_;
     }
@@ -312,8 +312,8 @@ class Drawing {
 
 }  // namespace
 
-std::string plot_svg(const PlotSpec& spec) {
-    return Drawing(spec).text();
+std::string plot_svg(const PlotSpec& spec, double letters) {
+    return Drawing(spec, letters).text();
 }
 
 }  // namespace softgrain

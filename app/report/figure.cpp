@@ -7,7 +7,8 @@
 namespace softgrain::report {
 namespace {
 
-constexpr int width = 720, height = 560;  ///< [pixels], so that letters are those of the text around
+constexpr int width = 720, height = 540;  ///< [pixels]
+constexpr double letters = 1.25;          ///< two plots share the width of the page
 
 }  // namespace
 
@@ -21,7 +22,7 @@ std::string figures(std::vector<PlotSpec> plots) {
         } catch (const InputError&) {
             continue;
         }
-        out += "<figure>" + plot_svg(plot) + "</figure>\n";
+        out += "<figure>" + plot_svg(plot, letters) + "</figure>\n";
     }
     return out + "</div>\n";
 }

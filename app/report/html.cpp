@@ -30,7 +30,7 @@ std::string table(const Table& table) {
         out += "<tr>";
         for (std::size_t c = 0; c < row.size(); ++c) {
             const std::string content =
-                row[c].flagged ? fmt::format("<strong class=\"flag\">{} !</strong>", row[c].markup)
+                row[c].flagged ? fmt::format("<strong class=\"flag\">! {}</strong>", row[c].markup)
                                : row[c].markup;
             out += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", content)
                           : fmt::format("<td{}>{}</td>", css_class(c), content);

@@ -12,7 +12,7 @@ std::string element(std::string_view name, std::string_view text);
 /// A cell of a table, or of a list of facts.
 struct Cell {
     std::string markup;
-    bool flagged = false;  ///< shown bold on a tint, with an exclamation mark
+    bool flagged = false;  ///< shown on a tint, after an exclamation mark
 };
 Cell text_cell(std::string_view text);
 

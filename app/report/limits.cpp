@@ -46,7 +46,12 @@ std::vector<std::string> limits(const MethodResult& result, const Scenario& scen
                                 const Packing& packing) {
     const Method& method = find_method(result.report.method);
     std::vector<std::string> lines = refused(method, scenario, packing);
-    if (lines.empty() && !is_complete(result.report)) lines.push_back(result.report.ended);
+    if (lines.empty() && !is_complete(result.report))
+        lines.push_back(result.history
+                            ? fmt::format("Ended at packing fraction {}: {}.",
+                                          packing_fraction(result.history->column("packing_fraction").back()),
+                                          result.report.ended)
+                            : result.report.ended);
     if (!result.history || result.history->rows() == 0) return lines;
     if (const auto names = columns_without_numbers(*result.history); !names.empty())
         lines.push_back(fmt::format("Columns of the history without a number: {}.", listed(names)));

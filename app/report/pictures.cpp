@@ -133,7 +133,8 @@ std::string pictures_section(const std::vector<MethodResult>& results, const Pic
     return out +
            "</div>\n<p class=\"note\">For each method the frame nearest to the packing fraction; colours, "
            "force lines and "
-           "metres per pixel are the same in all pictures and stages. The arrow keys move the slider.</p>\n";
+           "metres per pixel are the same in all pictures and stages. <span class=\"screen\">The arrow keys "
+           "move the slider.</span></p>\n";
 }
 
 }  // namespace softgrain::report

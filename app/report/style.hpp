@@ -31,7 +31,7 @@ tbody th { font-weight: 600; white-space: nowrap; }
 .number { text-align: right; white-space: nowrap; }
 thead .number { white-space: normal; }
 .swatch { display: inline-block; width: .8em; height: .8em; margin-right: .5em; border-radius: 2px; }
-.flag { background: #fdeede; padding: 0 .25em; font-weight: 600; }
+.flag { background: #fdeede; padding: 0 .25em; font-weight: 500; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 1rem 1.5rem; }
 figure { margin: 0; min-width: 0; break-inside: avoid; }
 .plots svg { display: block; max-width: 100%; height: auto; }
@@ -48,14 +48,14 @@ figcaption { color: #8a3d00; font-size: .86rem; padding-top: .2rem; }
 @media (max-width: 600px) { body { padding: 1rem .8rem 2rem; } dl { grid-template-columns: 1fr; } dd { margin-bottom: .5rem; } }
 @page { size: A4; margin: 14mm 13mm; }
 @media print {
-  body { padding: 0; max-width: none; font-size: 10pt; }
+  html { font-size: 9.5pt; } body { padding: 0; max-width: none; font-size: 1rem; }
   h1 { font-size: 17pt; } h2 { font-size: 12.5pt; margin-top: 6mm; break-after: avoid; }
   .verdict { font-size: 10.5pt; break-inside: avoid; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   .swatch, .flag { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   table { font-size: 7.8pt; } th, td { padding: 1mm 1.2mm; }
   tr, dd, .note { break-inside: avoid; }
   .wide { overflow: visible; break-inside: avoid; }
-  #loading { display: none !important; }
+  #loading, .screen { display: none !important; }
   .stage { display: none !important; }
   .stage.last { display: grid !important; }
   .plots, .stage.last { grid-template-columns: 1fr 1fr; gap: 3mm 6mm; }

@@ -108,7 +108,7 @@ std::string energy_table(const std::vector<MethodResult>& results) {
                             "damping, friction, impacts, plastic flow and adhesion. The residual is what is "
                             "missing; above {} it is "
                             "flagged.</p>\n",
-                            percent(most_residual));
+                            whole_percent(most_residual));
 }
 
 }  // namespace softgrain::report

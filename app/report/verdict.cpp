@@ -79,7 +79,8 @@ std::string nearest_sentence(const std::vector<Measured>& all, const Truth& trut
     for (const Measured& other : all)
         if (other.result != best)
             others.push_back(
-                fmt::format("{} by {}{}", other.result->report.method, percent(other.error.stress),
+                fmt::format("{}{} by {}{}", other.result->report.method, others.empty() ? " differs" : "",
+                            percent(other.error.stress),
                             other.error.share < most_of_the_range
                                 ? fmt::format(" over {} of the range only", percent(other.error.share))
                                 : ""));
@@ -138,7 +139,7 @@ std::string endings_sentence(const std::vector<MethodResult>& results) {
     if (!not_done.empty()) text += (text.empty() ? "" : "; ") + listed(not_done);
     if (!flagged.empty())
         text += fmt::format("; the energy residual of the work is {}, more than {}", listed(flagged),
-                            percent(most_residual));
+                            whole_percent(most_residual));
     return text + ".";
 }
 

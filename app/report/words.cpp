@@ -8,10 +8,14 @@ namespace softgrain::report {
 
 std::string percent(double share) {
     if (!std::isfinite(share)) return no_number;
-    const double value = 100.0 * share;
-    const int decimals = std::abs(value) < 0.0995 ? 2 : std::abs(value) < 9.95 ? 1 : 0;
-    return fmt::format("{:.{}f} %", std::abs(value) < 0.005 ? 0.0 : value,
-                       std::abs(value) < 0.005 ? 0 : decimals);
+    const double size = std::abs(100.0 * share);
+    if (size < 0.005) return "0 %";
+    const int decimals = size < 0.0995 ? 2 : size < 9.95 ? 1 : 0;
+    return fmt::format("{}{:.{}f} %", share < 0.0 ? "\u2212" : "", size, decimals);
+}
+
+std::string whole_percent(double share) {
+    return fmt::format("{:.0f} %", 100.0 * share);
 }
 
 std::string seconds(double time) {

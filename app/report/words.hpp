@@ -8,6 +8,7 @@ namespace softgrain::report {
 inline constexpr const char* no_number = "\u2013";
 
 std::string percent(double share);           ///< 0.0123 is "1.2 %", 1.5 is "150 %"
+std::string whole_percent(double share);     ///< 0.02 is "2 %"
 std::string seconds(double time);            ///< "0.34 s"
 std::string significant(double value);       ///< three digits
 std::string packing_fraction(double value);  ///< three decimals

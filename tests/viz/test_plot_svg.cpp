@@ -148,9 +148,13 @@ TEST(AxisTicks, LogarithmicAreDecadesWithMinorOnes) {
     EXPECT_EQ(named, 4);       // 1e-3 to 1
     EXPECT_EQ(minor, 24 + 1);  // 8 in each decade and 0.9e-3
     std::string numbers;
-    for (const AxisTick& tick : axis_ticks(axis, {0.008, 0.3}))
+    for (const AxisTick& tick : axis_ticks(axis, {0.0008, 0.03}))
         if (!tick.is_minor()) numbers += tick.mantissa + std::to_string(*tick.power) + " ";
-    EXPECT_EQ(numbers, "-2 2\u00b7-2 5\u00b7-2 -1 2\u00b7-1 ");
+    EXPECT_EQ(numbers, "-3 2\u00b7-3 5\u00b7-3 -2 2\u00b7-2 ");
+    numbers.clear();
+    for (const AxisTick& tick : axis_ticks(axis, {0.04, 1.1}))
+        numbers += tick.is_minor() ? "" : tick.mantissa + " ";
+    EXPECT_EQ(numbers, "0.05 0.1 0.2 0.5 1 ");
     named = 0;
     for (const AxisTick& tick : axis_ticks(axis, {1e-12, 1e12})) named += tick.is_minor() ? 0 : 1;
     EXPECT_LE(named, 9);
