@@ -24,7 +24,7 @@ summary { cursor: pointer; font-weight: 600; }
 pre { background: #f6f7f8; border: 1px solid #e1e4e7; padding: .8rem 1rem; overflow-x: auto; font-size: .82rem;
   line-height: 1.4; white-space: pre-wrap; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: .92rem; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; width: 100%; min-width: 44rem; font-size: .92rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .38rem .7rem; text-align: left; vertical-align: top; border-bottom: 1px solid #e1e4e7; }
 thead th { border-bottom: 2px solid #8b939c; vertical-align: bottom; font-weight: 600; line-height: 1.25; }
 tbody th { font-weight: 600; white-space: nowrap; }
@@ -52,7 +52,7 @@ figcaption { color: #8a3d00; font-size: .86rem; padding-top: .2rem; }
   h1 { font-size: 17pt; } h2 { font-size: 12.5pt; margin-top: 6mm; break-after: avoid; }
   .verdict { font-size: 10.5pt; break-inside: avoid; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   .swatch, .flag { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  table { font-size: 7.8pt; } th, td { padding: 1mm 1.2mm; }
+  table { font-size: 7.8pt; min-width: 0; } th, td { padding: 1mm 1.2mm; }
   tr, dd, .note { break-inside: avoid; }
   .wide { overflow: visible; break-inside: avoid; }
   #loading, .screen { display: none !important; }

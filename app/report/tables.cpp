@@ -82,6 +82,10 @@ std::string methods_table(const std::vector<MethodResult>& results, const std::o
             "the "
             "coordination number Z of contacts between grains.",
             truth->name);
+    if (truth && truth->run)
+        note += fmt::format(
+            " {} has an error of its own, which falls with its resolution and is not in these numbers.",
+            truth->name);
     return table(all) + "<p class=\"note\">" + escape_markup(note) + "</p>\n";
 }
 

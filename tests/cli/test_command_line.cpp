@@ -313,13 +313,34 @@ TEST_F(CommandLine, CompareRunsEveryMethodFromOnePacking) {
         for (std::size_t k = 0; k < strain.size(); ++k)
             EXPECT_NEAR(h.column("axial_strain")[k], strain[k], 1e-9);
     }
-    // Everything is there already: --resume only makes the table again.
+    EXPECT_TRUE(fs::exists(fs::path(out) / "stress.svg"));
+    EXPECT_FALSE(fs::exists(fs::path(out) / "stress.png"));
+    // Everything is there already: --resume only makes the table and the report again.
+    const std::string report = content(fs::path(out) / "report.html");
+    EXPECT_NE(report.find("Against mpm, "), std::string::npos);
+    EXPECT_NE(report.find("Last common packing fraction"), std::string::npos);
+    EXPECT_EQ(report.find("<img"), std::string::npos);
+    fs::remove(fs::path(out) / "report.html");
     auto again = command;
     again.emplace_back("--resume");
     const Outcome second = softgrain(again);
     EXPECT_EQ(second.exit_code, 0);
     EXPECT_EQ(second.out, first.out);
+    EXPECT_EQ(content(fs::path(out) / "report.html"), report);
     EXPECT_EQ(softgrain(command).exit_code, 2) << "results are not overwritten without --force";
+}
+
+TEST_F(CommandLine, AFailedRendererIsSaidInTheReport) {
+    const fs::path out = folder / "comparison";
+    ::setenv("SOFTGRAIN_RENDER_EXE", "/no/such/renderer", 1);
+    const Outcome run =
+        softgrain({"compare", small_scenario().string(), "--methods", "rigid_dem", "--out", out.string()});
+    ::unsetenv("SOFTGRAIN_RENDER_EXE");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("no picture: "), std::string::npos) << run.err;
+    const std::string report = content(out / "report.html");
+    EXPECT_NE(report.find("<p>No pictures: softgrain-render was not found"), std::string::npos);
+    EXPECT_NE(report.find("no error is claimed"), std::string::npos);
 }
 
 TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
@@ -332,6 +353,9 @@ TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
     EXPECT_NE(run.out.find("- sdem: loading done"), std::string::npos) << run.out;
     EXPECT_FALSE(fs::exists(out / "rigid_dem"));
     EXPECT_TRUE(fs::exists(out / "sdem" / "history.csv"));
+    const std::string report = content(out / "report.html");
+    EXPECT_NE(report.find("rigid_dem did not run"), std::string::npos);
+    EXPECT_NE(report.find("material.yield_stress = 0.1 is not for rigid_dem"), std::string::npos);
 }
 
 /// The number behind a word.
