@@ -10,7 +10,8 @@
 
 namespace softgrain::report {
 
-/// A column of all histories over packing fraction, the reference dashed and black, with a band where it has
+/// A column of all histories over packing fraction, or over shear or axial strain if the loading changes the
+/// packing fraction by less than 0.02; the reference dashed and black, with a band where it has
 /// a column NAME_error. On a logarithmic axis what is below 1e-4 of a curve's largest value is left out:
 /// rounding before the first contact is no stress.
 PlotSpec curve_plot(const std::string& title, const std::vector<MethodResult>& results,

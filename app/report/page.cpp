@@ -135,11 +135,8 @@ std::string page(const PageContent& content) {
         "'unsafe-inline'; script-src 'unsafe-inline'\">\n" +
         element("title", title) + "<style>" + style_sheet + "</style>\n</head>\n<body>\n<header>\n" +
         element("h1", title) +
-        element(
-            "p",
-            fmt::format(
-                "One packing of {} grains through {}: what each costs and how far it is from the reference.",
-                content.packing.size(), listed(names))) +
+        element("p", fmt::format("One packing of {} grains through {}: what each gives, and what it costs.",
+                                 content.packing.size(), listed(names))) +
         "</header>\n";
     out += "<section class=\"verdict\">\n";
     for (const std::string& sentence : verdict(content.results, truth)) out += element("p", sentence);

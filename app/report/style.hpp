@@ -32,7 +32,7 @@ tbody th { font-weight: 600; white-space: nowrap; }
 thead .number { white-space: normal; }
 .swatch { display: inline-block; width: .8em; height: .8em; margin-right: .5em; border-radius: 2px; }
 .flag { background: #fdeede; padding: 0 .25em; font-weight: 500; }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 1rem 1.5rem; }
+.plots { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 460px), 1fr)); gap: 1rem 1.5rem; }
 figure { margin: 0; min-width: 0; break-inside: avoid; }
 .plots svg { display: block; max-width: 100%; height: auto; }
 .plots figure > svg { width: 100%; max-width: 760px; }

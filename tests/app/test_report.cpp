@@ -220,6 +220,21 @@ TEST(Curves, TheReferenceIsDashedWithItsBand) {
     EXPECT_NEAR(plot.series[1].upper[20], 0.11 + 0.01, 1e-12);
     EXPECT_NEAR(plot.series[1].lower[20], 0.11 - 0.01, 1e-12);
     EXPECT_FALSE(has_deviatoric_stress(results));
+    EXPECT_TRUE(std::isnan(plot.series[1].upper[0])) << "no band where there is no curve";
+}
+
+TEST(Curves, AreOverShearWhereThePackingFractionHardlyChanges) {
+    std::vector<MethodResult> results{run("sdem", 1.0, 0.81, 1.0)};
+    for (int k = 0; k <= 20; ++k) {
+        results[0].history->columns["axial_strain"].push_back(0.0);
+        results[0].history->columns["shear_strain"].push_back(0.01 * k);
+    }
+    const PlotSpec sheared = curve_plot("t", results, std::nullopt, "mean_stress", "y", false);
+    EXPECT_EQ(sheared.x.label, "shear strain");
+    EXPECT_NEAR(sheared.series[0].x[20], 0.2, 1e-12);
+    const PlotSpec compacted =
+        curve_plot("t", {run("sdem", 1.0, 0.9, 1.0)}, std::nullopt, "mean_stress", "y", false);
+    EXPECT_EQ(compacted.x.label, "packing fraction");
 }
 
 TEST(Forces, TheNearestFrameIsReadAndItsBinsKeepTheirSum) {
