@@ -36,14 +36,15 @@ std::vector<AxisTick> logarithmic_ticks(const PlotRange& range) {
     const int first = static_cast<int>(std::floor(std::log10(range.min)));
     const int last = static_cast<int>(std::ceil(std::log10(range.max)));
     const int every = 1 + (last - first) / (most_decades + 1);
-    const bool few = range.max < 100.0 * range.min;
+    const bool few = range.max < 100.0 * range.min, within_one = range.max < 6.0 * range.min;
     std::vector<AxisTick> ticks;
     for (int decade = first; decade <= last; ++decade)
         for (int step = 1; step <= (every > 1 ? 1 : 9); ++step) {
             const double value = step * std::pow(10.0, decade);
             if (value < range.min * (1.0 - 1e-9) || value > range.max * (1.0 + 1e-9)) continue;
             const double place = place_on_axis(value, range, true);
-            const bool named = step == 1 ? decade % every == 0 : few && (step == 2 || step == 5);
+            const bool named =
+                step == 1 ? decade % every == 0 : few && (step == 2 || step == 5 || within_one);
             if (!named)
                 ticks.push_back({place});
             else if (few && range.min >= least_plain && range.max <= most_plain)

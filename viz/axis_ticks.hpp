@@ -19,8 +19,8 @@ struct AxisTick {
 };
 
 /// Round numbers; on a logarithmic axis decades, with minor ticks at the steps between them. Of less than two
-/// decades 2 and 5 times the power have numbers too, as decimals if they are
-/// not too small; of more than eight not every decade has one.
+/// decades 2 and 5 times the power have numbers too, of much less than one every step, as decimals if they
+/// are not too small; of more than eight not every decade has one.
 std::vector<AxisTick> axis_ticks(const PlotAxis& axis, const PlotRange& range);
 
 }  // namespace softgrain

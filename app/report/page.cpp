@@ -144,8 +144,7 @@ std::string page(const PageContent& content) {
     out += heading("Methods") + methods_table(content.results, truth);
     out += heading("Curves") + curves_section(content);
     if (content.pictures)
-        out += heading("Pictures at equal packing fraction") +
-               pictures_section(content.results, *content.pictures);
+        out += heading("Pictures side by side") + pictures_section(content.results, *content.pictures);
     out += heading("Distribution of normal forces") + force_section(content.results, content.folder);
     out += heading("Energy") + energy_table(content.results);
     out += heading("What each method could not do") +

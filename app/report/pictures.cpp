@@ -131,7 +131,7 @@ std::string pictures_section(const std::vector<MethodResult>& results, const Pic
         last, escape_markup(pictures.stages[last].name));
     for (std::size_t s = 0; s <= last; ++s) out += stage_markup(results, pictures.stages[s], s == last);
     return out +
-           "</div>\n<p class=\"note\">For each method the frame nearest to the packing fraction; colours, "
+           "</div>\n<p class=\"note\">For each method the frame nearest to the stage; colours, "
            "force lines and "
            "metres per pixel are the same in all pictures and stages. <span class=\"screen\">The arrow keys "
            "move the slider.</span></p>\n";

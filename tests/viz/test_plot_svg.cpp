@@ -155,6 +155,9 @@ TEST(AxisTicks, LogarithmicAreDecadesWithMinorOnes) {
     for (const AxisTick& tick : axis_ticks(axis, {0.04, 1.1}))
         numbers += tick.is_minor() ? "" : tick.mantissa + " ";
     EXPECT_EQ(numbers, "0.05 0.1 0.2 0.5 1 ");
+    numbers.clear();
+    for (const AxisTick& tick : axis_ticks(axis, {0.025, 0.06})) numbers += tick.mantissa + " ";
+    EXPECT_EQ(numbers, "0.03 0.04 0.05 0.06 ");
     named = 0;
     for (const AxisTick& tick : axis_ticks(axis, {1e-12, 1e12})) named += tick.is_minor() ? 0 : 1;
     EXPECT_LE(named, 9);
