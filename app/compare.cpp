@@ -18,6 +18,7 @@
 #include "common/packing/make_packing.hpp"
 #include "common/packing/packing_csv.hpp"
 #include "viz/client.hpp"
+#include "viz/paraview/view_script.hpp"
 
 namespace softgrain {
 namespace {
@@ -107,6 +108,7 @@ int compare(const CompareRequest& request) {
         reference = {request.reference.stem().string(), read_history(request.reference)};
 
     make_directories(request.folder);
+    write_view_script(request.folder, request.methods);
     const Packing packing = make_packing(request.scenario);
     write_packing_csv(request.folder / "initial_packing.csv", packing);
     fmt::print("{} grains, undeformed packing fraction {:.4f}, box {:.4g} x {:.4g}\n", packing.size(),

@@ -16,6 +16,7 @@
 #include "common/io/run_file.hpp"
 #include "common/time_loop.hpp"
 #include "version.hpp"
+#include "viz/paraview/view_script.hpp"
 #include "viz/writers/writers.hpp"
 
 namespace softgrain {
@@ -123,9 +124,11 @@ RunReport run_into_folder(const RunRequest& request) {
         write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 
+    write_view_script(request.folder, {"."});
     HistoryWriter history(request.folder / "history.csv", file.state.history);
+    const bool outlines = scenario.sampling.outlines && request.packing.size() <= most_outlined_grains;
     const Need grain_data = Need::area | Need::stress | Need::fields;
-    GrainWriter grains(request.folder, scenario.sampling.outlines ? grain_data | Need::outlines : grain_data,
+    GrainWriter grains(request.folder, outlines ? grain_data | Need::outlines : grain_data,
                        request.packing.grain_class);
     ContactWriter contacts(request.folder);
     WallWriter walls(request.folder);

@@ -39,7 +39,8 @@ std::vector<Line> lines_of(const GrainView& view) {
         const Vec2 from = view.centroid[i] - shift[i];
         const Vec2 point = c.point - shift[i];
         if (c.with_wall()) {
-            lines.push_back({k, {from, point, foot_on_wall(view.box, c.wall(), point)}});
+            // The contact point is on the wall but for the depth of contact, which is no length to draw.
+            lines.push_back({k, {from, foot_on_wall(view.box, c.wall(), point)}});
             continue;
         }
         const auto j = static_cast<std::size_t>(c.j);

@@ -3,10 +3,12 @@
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "common/errors.hpp"
@@ -61,6 +63,18 @@ void add_centroids(const GrainView& view, std::span<const Vec2> shift, vtkPoints
         vertices->InsertCellPoint(points.InsertNextPoint(c.x(), c.y(), 0.0));
     }
     data.SetVerts(vertices);
+}
+
+/// What ParaView needs to draw points as discs (Point Gaussian) or as tensor glyphs: it takes point data
+/// only.
+void add_point_data(const GrainView& view, std::span<const double> area, vtkPolyData& data) {
+    vtkPointData& points = *data.GetPointData();
+    auto radius = add_numbers(points, "radius", "m", 1, view.size());
+    for (std::size_t g = 0; g < view.size(); ++g)
+        radius->SetValue(static_cast<vtkIdType>(g), std::sqrt(area[g] / std::numbers::pi));
+    for (const char* name : {"stress", "mean_stress"})
+        if (vtkDataArray* array = data.GetCellData()->GetArray(name)) points.AddArray(array);
+    points.SetActiveTensors("stress");
 }
 
 void add_scalars(vtkPolyData& data, std::string_view name, std::string_view unit,
@@ -131,6 +145,8 @@ void GrainWriter::observe(const GrainView& view, const Sample& sample) {
     }
     data->SetPoints(points);
     if (wants(needs_, Need::stress)) add_stress(view, *data);
+    if (!wants(needs_, Need::outlines))
+        add_point_data(view, wants(needs_, Need::area) ? view.area : view.reference_area, *data);
     if (wants(needs_, Need::fields))
         for (const Field& field : view.fields) add_field(*data->GetCellData(), field, view.size());
     frames_.add(sample.frame, view.time, *data);

@@ -10,7 +10,13 @@
 
 namespace softgrain {
 
-/// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids)
+/// Above this many grains a run writes points instead of outlines, as with sampling.outlines = false. At 64
+/// points an outline takes 1.5 kB, so that a frame of 1e5 grains has 150 MB, and in a picture of 2000 pixels
+/// such a grain is 6 pixels wide: its shape cannot be seen.
+constexpr std::size_t most_outlined_grains = 100'000;
+
+/// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids,
+/// with point data radius, that of a disc of the same area, and with Need::stress stress and mean_stress)
 /// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
 /// aspect_ratio, orientation, asphericity, circularity, grain_class if there is more than one, and the
 /// method's own fields. In a periodic cell each grain is drawn where its centroid lies in the cell.
@@ -29,9 +35,9 @@ class GrainWriter final : public Observer {
     std::vector<std::uint8_t> grain_class_;
 };
 
-/// Contacts as lines centroid - contact point - centroid, or centroid - contact point - wall; a contact
-/// across a periodic cell as two, each from one grain to the contact point. Cell data: normal_force,
-/// tangential_force, force, normal, contact_length, grain_i, grain_j (-1 - wall), is_wall.
+/// Contacts as lines centroid - contact point - centroid, or centroid - foot of the contact point on the
+/// wall; a contact across a periodic cell as two, each from one grain to the contact point. Cell data:
+/// normal_force, tangential_force, force, normal, contact_length, grain_i, grain_j (-1 - wall), is_wall.
 class ContactWriter final : public Observer {
   public:
     explicit ContactWriter(std::filesystem::path run_dir);
