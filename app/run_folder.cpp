@@ -126,9 +126,7 @@ RunReport run_into_folder(const RunRequest& request) {
 
     write_view_script(request.folder, {"."});
     HistoryWriter history(request.folder / "history.csv", file.state.history);
-    const bool outlines = scenario.sampling.outlines && request.packing.size() <= most_outlined_grains;
-    const Need grain_data = Need::area | Need::stress | Need::fields;
-    GrainWriter grains(request.folder, outlines ? grain_data | Need::outlines : grain_data,
+    GrainWriter grains(request.folder, grain_data(request.packing.size(), scenario.sampling.outlines),
                        request.packing.grain_class);
     ContactWriter contacts(request.folder);
     WallWriter walls(request.folder);

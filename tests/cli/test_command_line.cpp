@@ -356,6 +356,9 @@ TEST_F(CommandLine, AMethodThatCannotRunTheScenarioSaysSoAndTheOthersRun) {
     const std::string report = content(out / "report.html");
     EXPECT_NE(report.find("rigid_dem did not run"), std::string::npos);
     EXPECT_NE(report.find("material.yield_stress = 0.1 is not for rigid_dem"), std::string::npos);
+    // For ParaView: the methods side by side, and each run alone.
+    EXPECT_NE(content(out / "view.py").find("\nRUNS = [\"sdem\",\"rigid_dem\"] "), std::string::npos);
+    EXPECT_NE(content(out / "sdem" / "view.py").find("\nRUNS = [\".\"] "), std::string::npos);
 }
 
 /// The number behind a word.

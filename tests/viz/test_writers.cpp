@@ -6,6 +6,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -13,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 #include "common/errors.hpp"
 #include "common/observables/shape.hpp"
@@ -121,6 +123,33 @@ TEST_F(WritersTest, WithoutOutlinesGrainsArePoints) {
     EXPECT_EQ(data->GetCellData()->GetArray("stress"), nullptr);
     EXPECT_EQ(data->GetCellData()->GetArray("aspect_ratio"), nullptr);
     EXPECT_EQ(value(*data, "area", 5), grains.area[5]);
+    const double radius = softgrain::value(*data->GetPointData(), "radius", 5);
+    EXPECT_NEAR(std::numbers::pi * radius * radius, grains.area[5], 1e-15);  // rounding
+    const char* unit_of_radius =
+        data->GetPointData()->GetArray("radius")->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    EXPECT_STREQ(unit_of_radius, "m");
+}
+
+TEST_F(WritersTest, VeryManyGrainsAreWrittenWithoutOutlines) {
+    EXPECT_TRUE(wants(grain_data(most_outlined_grains, true), Need::outlines));
+    EXPECT_FALSE(wants(grain_data(most_outlined_grains + 1, true), Need::outlines));
+    EXPECT_FALSE(wants(grain_data(4, false), Need::outlines));
+    EXPECT_TRUE(wants(grain_data(most_outlined_grains + 1, true), Need::stress));
+}
+
+TEST_F(WritersTest, PointsHaveTheirStressAsPointDataToo) {
+    GrainWriter writer(run, Need::stress);
+    writer.observe(grains.view(), frame_sample(0));
+    const auto data = read_back(run / "grains/grains_000000.vtp");
+    for (const int component : {0, 1, 3, 4})
+        EXPECT_EQ(softgrain::value(*data->GetPointData(), "stress", 5, component),
+                  value(*data, "stress", 5, component));
+    EXPECT_EQ(softgrain::value(*data->GetPointData(), "mean_stress", 5), value(*data, "mean_stress", 5));
+    ASSERT_NE(data->GetPointData()->GetTensors(), nullptr);
+    EXPECT_STREQ(data->GetPointData()->GetTensors()->GetName(), "stress");
+    // Without the area of now, that of the start.
+    EXPECT_NEAR(softgrain::value(*data->GetPointData(), "radius", 5),
+                std::sqrt(grains.reference_area[5] / std::numbers::pi), 1e-15);
 }
 
 TEST_F(WritersTest, ContactsComeBackAsTheyWere) {

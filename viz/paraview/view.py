@@ -37,6 +37,20 @@ BAR_SHARE = 0.13               # of the width, for the colour bar
 IN_WINDOW = not sys.argv[0]    # ParaView's window gives its scripts no name
 
 
+def stop(reason, exit_code):
+    if IN_WINDOW:
+        raise RuntimeError(reason)  # sys.exit would close ParaView
+    print(reason, file=sys.stderr)
+    sys.exit(exit_code)
+
+
+def fraction_of_frames(text):
+    share = 1.0 if text == "last" else float(text)
+    if not 0.0 <= share <= 1.0:
+        raise ValueError
+    return share
+
+
 def own_folder():
     """The folder of this file, which --script= does not tell to the script."""
     if "__file__" in globals():
@@ -185,7 +199,7 @@ def show_lines(source, view, offset, width):
     display.Position = offset
 
 
-def show_grains(run, view, offset, colours):
+def show_grains(run, view, offset, colours, line_width):
     if run.are_points():
         source = CellDatatoPointData(registrationName=f"{run.name} points", Input=run.grains)
         display = Show(source, view)
@@ -199,7 +213,7 @@ def show_grains(run, view, offset, colours):
         display.SetRepresentationType("Surface")
         display.Triangulate = 1
         outlines = FeatureEdges(registrationName=f"{run.name} outlines", Input=run.grains, FeatureEdges=0)
-        show_lines(outlines, view, offset, 1.5)
+        show_lines(outlines, view, offset, line_width)
     unshaded(display, GREY)
     display.Position = offset
     if run.has(FIELD):
@@ -252,14 +266,14 @@ def show_colour_bar(colours, unit, view, font_size):
 def main():
     arguments = argparse.ArgumentParser(description="Draws the runs of this folder with ParaView.")
     arguments.add_argument("--out", help="picture (.png); view.png beside this file if not given")
-    arguments.add_argument("--at", default="last", help="last, or a fraction of the list of frames from 0 to 1")
+    arguments.add_argument("--at", type=fraction_of_frames, default=1.0, metavar="last|FRACTION",
+                           help="last, or a fraction of the list of frames from 0 to 1")
     given = arguments.parse_args([] if IN_WINDOW else sys.argv[1:])
-    share = 1.0 if given.at == "last" else float(given.at)
 
     here = own_folder()
     runs = open_runs(here)
     if not runs:
-        sys.exit(f"{here}: none of the runs {', '.join(RUNS)} can be opened")
+        stop(f"{here}: none of the runs {', '.join(RUNS)} can be opened", 2)
     steps = sorted({t for run in runs for t in run.times}) if STEP_BY == "time" else \
         [float(k) for k in range(max(len(run.times) for run in runs))]
 
@@ -274,7 +288,7 @@ def main():
     if not IN_WINDOW:
         view.ViewSize = [PICTURE_WIDTH, round(PICTURE_WIDTH * min(max(size[1] / size[0], 0.3), 1.2))]
     pixels = min(numpy.array(view.ViewSize) / size)  # in a metre
-    font_size = round(min(max(0.04 * cell[1] * pixels, 8), 28))
+    font_size = round(min(max(0.04 * cell[1] * pixels, 10), 28))
 
     low, high = colour_range(runs)
     unit = next((run.unit(FIELD) for run in runs if run.has(FIELD)), "")
@@ -285,11 +299,12 @@ def main():
     strongest = percentile(numpy.abs(numpy.concatenate([run.values("contacts", "normal_force") for run in runs])), 98.0)
     areas = numpy.concatenate([run.values("grains", "reference_area") for run in runs])
     mean_radius = float(numpy.mean(numpy.sqrt(areas / math.pi)))
+    line_width = min(max(0.03 * mean_radius * pixels, 0.5), 1.5)
     for run, spot in zip(runs, spots):
         offset = [*(spot - run.centre), 0.0]
-        show_grains(run, view, offset, colours)
+        show_grains(run, view, offset, colours, line_width)
         if "walls" in run.series:
-            show_lines(run.series["walls"], view, offset, 2.5)
+            show_lines(run.series["walls"], view, offset, 1.0 + line_width)
         if FORCE_CHAINS and "contacts" in run.series and strongest > 0.0:
             show_chains(run, view, offset, strongest, WIDEST_CHAIN * mean_radius)
         show_label(run, view, [spot[0] - 0.5 * run.size[0], spot[1] + 0.52 * run.size[1], 0.0], font_size)
@@ -297,7 +312,7 @@ def main():
 
     scene = GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
-    scene.AnimationTime = steps[round(share * (len(steps) - 1))]
+    scene.AnimationTime = steps[round(given.at * (len(steps) - 1))]
 
     Render(view)  # the first time with a camera of its own choice
     colours.RescaleTransferFunction(low, high)
@@ -313,7 +328,7 @@ def main():
     if not IN_WINDOW:
         picture = Path(given.out) if given.out else here / "view.png"
         if not SaveScreenshot(str(picture), view, ImageResolution=view.ViewSize):
-            sys.exit(f"{picture}: cannot be written")
+            stop(f"{picture}: cannot be written", 4)
         print("picture:", picture)
 
 

@@ -111,6 +111,11 @@ void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
 
 }  // namespace
 
+Need grain_data(std::size_t grains, bool outlines) {
+    const Need all_but_outlines = Need::area | Need::stress | Need::fields;
+    return outlines && grains <= most_outlined_grains ? all_but_outlines | Need::outlines : all_but_outlines;
+}
+
 GrainWriter::GrainWriter(std::filesystem::path run_dir, Need needs, std::vector<std::uint8_t> grain_class)
     : frames_(std::move(run_dir), "grains"), needs_(needs), grain_class_(std::move(grain_class)) {}
 

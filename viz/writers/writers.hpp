@@ -15,6 +15,9 @@ namespace softgrain {
 /// such a grain is 6 pixels wide: its shape cannot be seen.
 constexpr std::size_t most_outlined_grains = 100'000;
 
+/// What GrainWriter writes of a run of so many grains. `outlines`: if they can be had.
+Need grain_data(std::size_t grains, bool outlines);
+
 /// Grains as closed counter-clockwise polygons (or, without Need::outlines, as points at their centroids,
 /// with point data radius, that of a disc of the same area, and with Need::stress stress and mean_stress)
 /// with cell data: grain, mass, area, reference_area, velocity, stress, mean_stress, deviatoric_stress,
