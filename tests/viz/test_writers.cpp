@@ -95,6 +95,7 @@ TEST_F(WritersTest, GrainsComeBackAsTheyWere) {
                       view.outline_point[first + static_cast<std::size_t>(k)]);
     }
     EXPECT_STREQ(data->GetCellData()->GetTensors()->GetName(), "stress");
+    EXPECT_STREQ(data->GetCellData()->GetScalars()->GetName(), "mean_stress");
     EXPECT_EQ(unit(*data, "mean_stress"), "N/m");
     EXPECT_EQ(unit(*data, "temperature"), "K");
 }

@@ -178,7 +178,7 @@ def colour_range(runs):
 
 def places(runs):
     """Where the middle of each run goes [m], size of a cell, columns and rows: as large as possible on a wide screen."""
-    cell = numpy.max([run.size for run in runs], axis=0) * [1.05, 1.0] + [0.0, 0.16 * max(run.size[1] for run in runs)]
+    cell = numpy.max([run.size for run in runs], axis=0) * [1.05, 1.0] + [0.0, 0.13 * max(run.size[1] for run in runs)]
     columns = max(range(1, len(runs) + 1),
                   key=lambda n: min(1.6 / (n * cell[0]), 1.0 / (math.ceil(len(runs) / n) * cell[1])))
     spots = [numpy.array([(k % columns) * cell[0], -(k // columns) * cell[1]]) for k in range(len(runs))]
@@ -288,7 +288,7 @@ def main():
     if not IN_WINDOW:
         view.ViewSize = [PICTURE_WIDTH, round(PICTURE_WIDTH * min(max(size[1] / size[0], 0.3), 1.2))]
     pixels = min(numpy.array(view.ViewSize) / size)  # in a metre
-    font_size = round(min(max(0.04 * cell[1] * pixels, 10), 28))
+    font_size = round(min(max(0.04 * cell[1] * pixels, 10), 36))
 
     low, high = colour_range(runs)
     unit = next((run.unit(FIELD) for run in runs if run.has(FIELD)), "")
@@ -308,7 +308,7 @@ def main():
         if FORCE_CHAINS and "contacts" in run.series and strongest > 0.0:
             show_chains(run, view, offset, strongest, WIDEST_CHAIN * mean_radius)
         show_label(run, view, [spot[0] - 0.5 * run.size[0], spot[1] + 0.52 * run.size[1], 0.0], font_size)
-    show_colour_bar(colours, unit, view, font_size)
+    show_colour_bar(colours, unit, view, min(font_size, 28))
 
     scene = GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()

@@ -75,6 +75,7 @@ void add_point_data(const GrainView& view, std::span<const double> area, vtkPoly
     for (const char* name : {"stress", "mean_stress"})
         if (vtkDataArray* array = data.GetCellData()->GetArray(name)) points.AddArray(array);
     points.SetActiveTensors("stress");
+    points.SetActiveScalars("mean_stress");
 }
 
 void add_scalars(vtkPolyData& data, std::string_view name, std::string_view unit,
@@ -95,6 +96,7 @@ void add_stress(const GrainView& view, vtkPolyData& data) {
         deviatoric->SetValue(static_cast<vtkIdType>(g), std::hypot((s(0, 0) - s(1, 1)) / 2.0, shear));
     }
     data.GetCellData()->SetActiveTensors("stress");
+    data.GetCellData()->SetActiveScalars("mean_stress");  // ParaView colours by it at once
 }
 
 void add_identity_and_motion(const GrainView& view, vtkPolyData& data) {
