@@ -137,6 +137,9 @@ TEST_F(ViewScript, DrawsPointsAsDiscs) {
     const Outcome outcome = run("");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.said;
     EXPECT_TRUE(holds(outcome.said, "without contacts: ")) << outcome.said;
+    const Outcome nowhere = run("--out /nowhere/picture.png");
+    EXPECT_EQ(nowhere.exit_code, 4) << nowhere.said;
+    EXPECT_TRUE(holds(nowhere.said, "/nowhere/picture.png: cannot be written")) << nowhere.said;
     // One packing: 0.8 of its width, and discs cover at least half of it; points without size would be
     // nothing.
     EXPECT_GT(coloured_share(Picture(results / "view.png")), 0.4);

@@ -271,6 +271,13 @@ def main():
     given = arguments.parse_args([] if IN_WINDOW else sys.argv[1:])
 
     here = own_folder()
+    picture = Path(given.out) if given.out else here / "view.png"
+    if not IN_WINDOW:
+        try:
+            picture.write_bytes(b"")
+            picture.unlink()
+        except OSError as error:
+            stop(f"{picture}: cannot be written: {error.strerror}", 4)
     runs = open_runs(here)
     if not runs:
         stop(f"{here}: none of the runs {', '.join(RUNS)} can be opened", 2)
@@ -326,8 +333,8 @@ def main():
     print("time steps:", len(steps))
     print(f"colour range: {low:.6g} to {high:.6g} {unit}".rstrip())
     if not IN_WINDOW:
-        picture = Path(given.out) if given.out else here / "view.png"
-        if not SaveScreenshot(str(picture), view, ImageResolution=view.ViewSize):
+        SaveScreenshot(str(picture), view, ImageResolution=view.ViewSize)
+        if not picture.is_file():  # it does not tell of a full disk
             stop(f"{picture}: cannot be written", 4)
         print("picture:", picture)
 
