@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds, and runs the default comparison or the tests. Safe to repeat; does only what is still missing.
-#   ./bootstrap.sh run     install what is missing, build, run scenarios/default.toml with sdem, bpm and rigid_dem
+#   ./bootstrap.sh run     install what is missing, build, compare all methods on scenarios/default.toml
 #   ./bootstrap.sh test    install what is missing, build, run all tests
 #   ./bootstrap.sh build   install what is missing, build
 #   ./bootstrap.sh deps    install what is missing
@@ -42,8 +42,8 @@ case "${1:-}" in
     build) build ;;
     run)
         build --target softgrain softgrain-render
-        say "Running scenarios/default.toml with sdem, bpm and rigid_dem into results/default"
-        exec build/release/bin/softgrain compare scenarios/default.toml --methods sdem,bpm,rigid_dem --out results/default --force
+        say "Comparing all methods on scenarios/default.toml into results/default (three minutes)"
+        exec build/release/bin/softgrain compare scenarios/default.toml --out results/default --force
         ;;
     test)
         build

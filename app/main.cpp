@@ -13,6 +13,7 @@
 #include "app/methods.hpp"
 #include "app/probe_fan.hpp"
 #include "app/process.hpp"
+#include "app/report/curves.hpp"
 #include "app/run_folder.hpp"
 #include "common/errors.hpp"
 #include "common/io/history_csv.hpp"
@@ -20,6 +21,7 @@
 #include "common/packing/make_packing.hpp"
 #include "version.hpp"
 #include "viz/client.hpp"
+#include "viz/plot_text.hpp"
 
 namespace softgrain {
 namespace {
@@ -149,6 +151,8 @@ int info_command(const Arguments& a) {
         const auto& values = history.column(o.name);
         fmt::print("{:<32} {:>14.6g} {:>14.6g} {}\n", o.name, values.front(), values.back(), o.unit);
     }
+    fmt::print("\n{}", plot_text(report::curve_plot("", {{r, history}}, std::nullopt, "mean_stress",
+                                                    "mean stress [N/m]", false)));
     return 0;
 }
 

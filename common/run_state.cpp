@@ -1,8 +1,22 @@
 #include "common/run_state.hpp"
 
+#include "common/errors.hpp"
 #include "common/observables/observable.hpp"
 
 namespace softgrain {
+namespace {
+
+/// Names of the columns as numbers, as a checkpoint can hold them.
+std::vector<int> history_columns() {
+    std::vector<int> letters;
+    for (const Observable& column : observables()) {
+        letters.insert(letters.end(), column.name.begin(), column.name.end());
+        letters.push_back(',');
+    }
+    return letters;
+}
+
+}  // namespace
 
 void RunState::save(Checkpoint& to) const {
     to.put("counters", std::vector<std::int64_t>{step, stage, checks});
@@ -20,6 +34,7 @@ void RunState::save(Checkpoint& to) const {
     std::vector<double> flat;
     for (const auto& row : history) flat.insert(flat.end(), row.begin(), row.end());
     to.put("history", flat);
+    to.put("history_columns", history_columns());
     to.put("most_strain", most_strain);
     to.put("stage_stress", std::span<const double>(stage_stress));
     servo.save(to);
@@ -65,6 +80,13 @@ void RunState::load(const Checkpoint& from) {
     stress_impulse = stresses.at(0);
     mean_cell_stress = stresses.at(1);
     from.get("frame_times", frame_times);
+    std::vector<int> letters;
+    from.get("history_columns", letters);
+    if (letters != history_columns())
+        throw InputError(
+            "the checkpoint is of a version with other history columns; go on with that version, or start "
+            "anew with "
+            "--force");
     from.get("history", values);
     const std::size_t columns = observables().size();
     history.clear();
@@ -75,7 +97,6 @@ void RunState::load(const Checkpoint& from) {
     from.get("stage_stress", values);
     for (std::size_t a = 0; a < 2; ++a) stage_stress[a] = values.at(a);
     servo.load(from);
-    std::vector<int> letters;
     from.get("ended", letters);
     ended.assign(letters.begin(), letters.end());
 }

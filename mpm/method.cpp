@@ -154,10 +154,13 @@ MpmSettings settings_of(const Scenario& scenario) {
 }
 
 const Method& method() {
-    static const Method row{"mpm",   "material points: resolved grains, the reference of the others",
-                            &keys,   &make,
-                            "",      &faults_of,
-                            refusals};
+    static const Method row{.name = "mpm",
+                            .title = "material points: resolved grains, the reference of the others",
+                            .keys = &keys,
+                            .make = &make,
+                            .not_given = "fragments",
+                            .faults = &faults_of,
+                            .refusals = refusals};
     return row;
 }
 

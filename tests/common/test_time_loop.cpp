@@ -393,6 +393,15 @@ bool same_rows(const std::vector<std::vector<double>>& a, const std::vector<std:
     });
 }
 
+TEST(TimeLoop, ACheckpointWithOtherHistoryColumnsIsRefused) {
+    Checkpoint saved;
+    RunState().save(saved);
+    RunState restored;
+    EXPECT_NO_THROW(restored.load(saved));
+    saved.integers.at("history_columns").front() += 1;
+    EXPECT_THROW(restored.load(saved), InputError);
+}
+
 TEST(TimeLoop, AShearedCellResumesWithTheSameBits) {
     LoadingStage shear;
     shear.kind = LoadingKind::shear;
