@@ -63,7 +63,7 @@ class Frame:
         point, normal_force (compression positive), tangential_force, force (on grain_i) [N], normal (out of grain_i),
         contact_length [m].
 
-        Across a periodic cell the point is the one beside grain_i.
+        Across a periodic cell the point is the one beside grain_i; at a wall it is the nearest on the wall.
         """
         file = self._read("contacts", "the run was made with sampling.contacts = false; make it again with contacts")
         table = _table(file.cell_data, file.units)
@@ -72,8 +72,8 @@ class Frame:
         table.insert(0, "x", points[:, 0])
         table.insert(1, "y", points[:, 1])
         table["is_wall"] = table["is_wall"].astype(bool)
-        # Across a cell a contact is drawn as two lines of two points, one after the other.
-        is_half = file.offsets - starts == 2
+        # Across a cell a contact is drawn as two lines of two points, one after the other; at a wall as one.
+        is_half = (file.offsets - starts == 2) & ~table["is_wall"]
         is_second = is_half & (np.cumsum(is_half) % 2 == 0)
         units = table.attrs["units"] | {"x": "m", "y": "m"}
         first_columns = ["grain_i", "grain_j", "is_wall"]

@@ -22,10 +22,10 @@ PlotSpec spec_of(std::vector<double> x, std::vector<double> y) {
 TEST(PlotText, ALineGoesFromCornerToCorner) {
     EXPECT_EQ(plot_text(spec_of({0.0, 2.0}, {1.0, 10.0}), 7, 4),
               "y [m]\n"
-              "10 |      *\n"
-              "   |    **\n"
-              "   |  **\n"
-              " 1 |**\n"
+              "10 |     **\n"
+              "   |   **\n"
+              "   | **\n"
+              " 1 |*\n"
               "   +-------\n"
               "    0  x  2\n");
 }
