@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every number and picture of the README anew (about three minutes). Run after ./bootstrap.sh build.
+# Makes every number and picture of the README anew (about six minutes). Run after ./bootstrap.sh build.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 softgrain=${SOFTGRAIN:-build/release/bin/softgrain}
@@ -10,7 +10,6 @@ mkdir -p "$out"
 
 echo "== default comparison"
 $softgrain compare scenarios/default.toml --out "$out/default" --quiet
-cp "$out/default/pictures/sheet.png" "$figures/default_pictures.png"
 $softgrain render SDEM="$out/default/sdem" BPM="$out/default/bpm" "rigid DEM=$out/default/rigid_dem" MPM="$out/default/mpm" \
     --at-phi 0.95 --range 0,0.3 --out "$figures/methods_at_095.png"
 cp "$out/default/stress.png" "$figures/default_stress.png"
