@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the resolved curves of this folder anew, each by MPM on two grids; their difference is the error bar. Two simulations at a time.
 #   scenarios/resolved/make.sh [--keep] [--out FOLDER] [CURVE...]
-# --keep: simulations that are in FOLDER (results/resolved) are not run again
+# --keep: simulations that are in FOLDER (results/resolved) are not run again, those that were stopped go on
 # CURVE: such as 24_isotropic_nu0.3; all if none
 # SOFTGRAIN: the program, build/release/bin/softgrain if not set
 set -euo pipefail
@@ -23,11 +23,14 @@ grids() { [[ $1 == 24_* ]] && echo 12 16 || echo 8 12; }
 
 # simulate CURVE POINTS
 simulate() {
-    local grains loading nu run=$out/$1-$2 interval=0.004
+    local grains loading nu run=$out/$1-$2 interval=0.004 again=--force
     IFS=_ read -r grains loading nu <<<"$1"
     [[ $loading == isotropic ]] || interval=0.008
-    ! $keep || [[ ! -e $run/run.json ]] || return 0
-    "$softgrain" run "scenarios/packing$grains/$loading.toml" --method mpm --threads 1 --out "$run" --force --quiet \
+    if $keep; then
+        again=--resume
+        ! grep -qs '"exit_code": 0' "$run/run.json" || return 0
+    fi
+    "$softgrain" run "scenarios/packing$grains/$loading.toml" --method mpm --threads 1 --out "$run" $again --quiet \
         --set material.poisson_ratio="${nu#nu}" --set mpm.points_across_radius="$2" --set mpm.inertial_number=1e-3 \
         --set loading.0.until_packing_fraction=0.97 --set sampling.strain_interval=$interval >"$run.log" 2>&1 ||
         { echo "$run failed: $(tail -1 "$run.log")" >&2 && return 1; }
