@@ -94,9 +94,7 @@ class FramesOfRuns(unittest.TestCase):
             stress = -contacts[["force_x", "force_y"]].to_numpy().T @ branch / np.prod(box)
             expected = frame.history[["love_weber_xx", "love_weber_xy", "love_weber_yy"]].to_numpy()
             found = [stress[0, 0], (stress[0, 1] + stress[1, 0]) / 2, stress[1, 1]]
-            # At walls the foot stands for the contact point, which lies half an overlap deeper.
-            tolerance = 1e-9 if name == "periodic" else 0.02
-            np.testing.assert_allclose(found, expected, rtol=tolerance, atol=tolerance * np.max(np.abs(expected)))
+            np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
 
     def test_walls(self):
         for name, _, frame in self.frames():
