@@ -6,6 +6,10 @@ target_compile_options(softgrain_options INTERFACE -Wall -Wextra -Wshadow -Wconv
 if(SOFTGRAIN_WERROR)
   target_compile_options(softgrain_options INTERFACE -Werror)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns so of std::string's own assignment of a literal (GCC bug 105329).
+  target_compile_options(softgrain_options INTERFACE -Wno-restrict)
+endif()
 if(SOFTGRAIN_NATIVE)
   target_compile_options(softgrain_options INTERFACE -march=native)
 endif()
