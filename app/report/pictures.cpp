@@ -124,11 +124,13 @@ Pictures draw_pictures(const std::vector<MethodResult>& results, const fs::path&
 std::string pictures_section(const std::vector<MethodResult>& results, const Pictures& pictures) {
     if (!pictures.failure.empty()) return element("p", "No pictures: " + pictures.failure);
     const std::size_t last = pictures.stages.size() - 1;
+    const auto drawn =
+        std::ranges::count_if(results, [](const MethodResult& r) { return r.history.has_value(); });
     std::string out = fmt::format(
         "<div id=\"loading\" hidden><label for=\"stage\">Stage of the loading</label>"
         "<input type=\"range\" id=\"stage\" min=\"0\" max=\"{0}\" step=\"1\" value=\"{0}\">"
-        "<output for=\"stage\" id=\"stage-name\">{1}</output></div>\n<div id=\"stages\">\n",
-        last, escape_markup(pictures.stages[last].name));
+        "<output for=\"stage\" id=\"stage-name\">{1}</output></div>\n<div id=\"stages\"{2}>\n",
+        last, escape_markup(pictures.stages[last].name), drawn == 3 ? " class=\"of-three\"" : "");
     for (std::size_t s = 0; s <= last; ++s) out += stage_markup(results, pictures.stages[s], s == last);
     return out +
            "</div>\n<p class=\"note\">For each method the frame nearest to the stage; colours, "

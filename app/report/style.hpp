@@ -38,6 +38,7 @@ figure { margin: 0; min-width: 0; break-inside: avoid; }
 .plots figure > svg { width: 100%; max-width: 760px; }
 .stage { display: none; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 1.2rem 1.5rem; }
 .stage.shown { display: grid; }
+@media (min-width: 900px) { .of-three .stage { grid-template-columns: 1fr 1fr 1fr; } }
 .stage img { display: block; width: 100%; height: auto; max-width: 720px; border: 1px solid #e1e4e7; }
 figcaption { color: #8a3d00; font-size: .86rem; padding-top: .2rem; }
 #loading:not([hidden]) { position: sticky; top: 0; z-index: 1; display: flex; flex-wrap: wrap; align-items: center;

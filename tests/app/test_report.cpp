@@ -1,8 +1,10 @@
 // The report of a comparison: errors, words, tables, and that no text gets into the page as markup.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -14,6 +16,7 @@
 #include "app/report/html.hpp"
 #include "app/report/limits.hpp"
 #include "app/report/page.hpp"
+#include "app/report/pictures.hpp"
 #include "app/report/tables.hpp"
 #include "app/report/verdict.hpp"
 #include "app/report/words.hpp"
@@ -258,6 +261,46 @@ TEST(Forces, TheNearestFrameIsReadAndItsBinsKeepTheirSum) {
     EXPECT_NEAR(frame->force[1], 0.75, 1e-12);
     EXPECT_NEAR(force_frame(result, folder, 0.0)->packing_fraction, 0.85, 1e-12) << "the first has no forces";
     EXPECT_FALSE(force_frame(run("bpm", 1.0, 0.9, 1.0), folder, 0.9));
+    fs::remove_all(folder);
+}
+
+/// In place of softgrain-render: writes as many bytes as a picture is wide, for two methods and nine stages.
+constexpr const char* counting_renderer = R"sh(#!/bin/sh
+while [ $# -gt 0 ]; do
+    case $1 in --out) out=$2 ;; --width) width=$2 ;; esac
+    shift
+done
+mkdir -p "$out"
+for method in sdem bpm; do for stage in 1 2 3 4 5 6 7 8 9; do
+    head -c "$width" /dev/zero >"$out/${method}_$stage.png"
+done; done
+)sh";
+
+TEST(Pictures, AreDrawnSmallerThenFewerUntilTheyFit) {
+    const fs::path folder = fs::path(testing::TempDir()) / fmt::format("pictures_{}", getpid());
+    fs::create_directories(folder);
+    const fs::path renderer = folder / "renderer.sh";
+    std::ofstream(renderer) << counting_renderer;
+    fs::permissions(renderer, fs::perms::owner_all);
+    setenv("SOFTGRAIN_RENDER_EXE", renderer.c_str(), 1);
+    const std::vector<MethodResult> results{run("sdem", 1.0, 0.9, 1.0), run("bpm", 1.0, 0.85, 1.0)};
+    struct Expected {
+        std::size_t most_bytes, stages, width;
+    };
+    for (const auto& [most_bytes, stages, width] :
+         {Expected{2 * 7 * 720, 7, 720}, Expected{2 * 7 * 720 - 1, 7, 480}, Expected{2 * 7 * 480 - 1, 4, 480},
+          Expected{2 * 4 * 480 - 1, 2, 400}, Expected{1, 2, 400}}) {
+        const Pictures pictures = draw_pictures(results, folder, false, most_bytes);
+        EXPECT_EQ(pictures.failure, "");
+        ASSERT_EQ(pictures.stages.size(), stages) << most_bytes;
+        for (const PictureStage& stage : pictures.stages)
+            for (const std::string& png : stage.png) EXPECT_EQ(png.size(), width) << most_bytes;
+        EXPECT_EQ(pictures.stages.back().note[0], "");
+        EXPECT_EQ(pictures.stages.back().note[1], "ended at packing fraction 0.850; its last frame");
+    }
+    std::ofstream(renderer) << "#!/bin/sh\necho no display >&2\nexit 4\n";
+    EXPECT_TRUE(has(draw_pictures(results, folder, false, 1).failure, "no display"));
+    unsetenv("SOFTGRAIN_RENDER_EXE");
     fs::remove_all(folder);
 }
 

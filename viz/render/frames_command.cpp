@@ -84,14 +84,14 @@ void draw_frames(const FramesRequest& request) {
         for (std::size_t s = 0; s < frames[r].size(); ++s) {
             row.push_back({&frames[r][s], "", ""});
             Sheet one;
-            one.heading = runs[r].label() + ", " + all.column_labels[s];
+            one.heading = runs[r].label();  // the caption has the stage, as it was reached
             one.cells = {{row.back()}};
             const auto image = lay_out_sheet(one, scale, width).draw(*graphics);
             write_png(request.out / fmt::format("{}_{}.png", file_label(runs[r].label()), s + 1), *image);
         }
     }
     if (runs.size() == 1 && frames[0].size() == 1) {
-        all.heading = runs[0].label() + ", " + all.column_labels[0];
+        all.heading = runs[0].label();
         all.row_labels.clear();
         all.column_labels.clear();
     }
