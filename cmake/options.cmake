@@ -7,8 +7,8 @@ if(SOFTGRAIN_WERROR)
   target_compile_options(softgrain_options INTERFACE -Werror)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 warns so of std::string's own assignment of a literal (GCC bug 105329).
-  target_compile_options(softgrain_options INTERFACE -Wno-restrict)
+  # GCC 12 warns so of std::string's own assignment (GCC bug 105329) and of its own AVX-512 headers (105593).
+  target_compile_options(softgrain_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 if(SOFTGRAIN_NATIVE)
   target_compile_options(softgrain_options INTERFACE -march=native)

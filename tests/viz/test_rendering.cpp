@@ -189,6 +189,21 @@ TEST_P(Rendering, PlotShowsEverySeries) {
     EXPECT_TRUE(fs::exists(folder.path() / "plots/stress.json"));
 }
 
+TEST_P(Rendering, ASeriesOfOnePointIsDrawn) {
+    PlotSpec spec;
+    PlotSeries point;
+    point.x = {0.9};
+    point.y = {0.01};
+    point.line = LineStyle::none;
+    point.marker = MarkerStyle::square;
+    spec.series = {point};
+    const fs::path out = folder.path() / "point.png";
+    const auto error = render_plot(spec, out);
+    if (missing(error)) GTEST_SKIP() << *error;
+    ASSERT_FALSE(error) << *error;
+    EXPECT_GT(Picture(out).share_of({0, 114, 178, 255}, 8), 2e-5);
+}
+
 TEST_P(Rendering, TruncatedFrameIsNamed) {
     write_hand_made_run(folder.path() / "run", 3, 1);
     const fs::path frame = folder.path() / "run/contacts/contacts_000000.vtp";

@@ -33,6 +33,7 @@ vtkSmartPointer<vtkTable> make_table(
         vtkNew<vtkDoubleArray> column;
         column->SetName(name);
         for (const double v : *values) column->InsertNextValue(v);
+        if (values->size() == 1) column->InsertNextValue(values->front());  // VTK draws no single point
         table->AddColumn(column);
     }
     return table;
