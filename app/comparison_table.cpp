@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/markdown_table.hpp"
+
 namespace softgrain {
 namespace {
 
@@ -12,23 +14,6 @@ using Row = std::vector<std::string>;
 
 std::string number(std::optional<double> value, const char* format) {
     return value ? fmt::format(fmt::runtime(format), *value) : "-";
-}
-
-std::string layout(const std::vector<Row>& rows) {
-    std::vector<std::size_t> width(rows.front().size(), 3);
-    for (const Row& row : rows)
-        for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
-    std::string text;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        for (std::size_t c = 0; c < rows[r].size(); ++c)
-            text += fmt::format(fmt::runtime(c == 0 ? "| {:<{}} " : "| {:>{}} "), rows[r][c], width[c]);
-        text += "|\n";
-        if (r > 0) continue;
-        for (std::size_t c = 0; c < width.size(); ++c)
-            text += fmt::format("|{}{}", std::string(width[c] + 1, '-'), c == 0 ? "-" : ":");
-        text += "|\n";
-    }
-    return text;
 }
 
 std::optional<double> value_at(const MethodResult& result, std::string_view column, double phi) {
@@ -42,15 +27,18 @@ double cost_per_grain_step(const RunReport& r) {
 
 }  // namespace
 
-std::optional<double> at_packing_fraction(const History& history, std::string_view column, double phi) {
-    const auto& x = history.column("packing_fraction");
-    const auto& y = history.column(column);
+std::optional<double> at_first_passage(const std::vector<double>& x, const std::vector<double>& y,
+                                       double at) {
     for (std::size_t k = 1; k < x.size(); ++k) {
-        if (!(x[k - 1] <= phi && phi <= x[k])) continue;
-        const double t = x[k] > x[k - 1] ? (phi - x[k - 1]) / (x[k] - x[k - 1]) : 0.0;
+        if (!(x[k - 1] <= at && at <= x[k])) continue;
+        const double t = x[k] > x[k - 1] ? (at - x[k - 1]) / (x[k] - x[k - 1]) : 0.0;
         return y[k - 1] + t * (y[k] - y[k - 1]);
     }
     return std::nullopt;
+}
+
+std::optional<double> at_packing_fraction(const History& history, std::string_view column, double phi) {
+    return at_first_passage(history.column("packing_fraction"), history.column(column), phi);
 }
 
 std::pair<double, double> packing_fraction_range(const std::vector<MethodResult>& results) {
@@ -118,7 +106,8 @@ std::string comparison_table(const std::vector<MethodResult>& results,
             result.history ? std::optional(result.history->column("packing_fraction").back()) : std::nullopt;
         endings += fmt::format("- {}: {}, at phi = {}\n", r.method, r.ended, number(reached, "{:.4f}"));
     }
-    return fmt::format("{}\n{}\n{}\n{}", layout(stress), layout(coordination), layout(cost), endings);
+    return fmt::format("{}\n{}\n{}\n{}", markdown_table(stress), markdown_table(coordination),
+                       markdown_table(cost), endings);
 }
 
 std::string comparison_csv(const std::vector<MethodResult>& results, const std::vector<double>& phi) {

@@ -20,6 +20,9 @@ struct MethodResult {
     std::optional<History> history;  ///< none if the run made no step
 };
 
+/// y where x first reaches `at` (linear between samples); none outside the range of x.
+std::optional<double> at_first_passage(const std::vector<double>& x, const std::vector<double>& y, double at);
+
 /// Value of a column where packing_fraction first reaches phi (linear between samples); none outside the
 /// run's range.
 std::optional<double> at_packing_fraction(const History& history, std::string_view column, double phi);

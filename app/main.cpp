@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/bench/bench_error.hpp"
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
 #include "app/methods.hpp"
@@ -38,6 +39,10 @@ struct Arguments {
     double plateau = 0.0, modulus = 0.0;
     int seeds = 5;
     int directions = 12;
+    std::string plan;
+    std::vector<std::string> cases;
+    int repeats = 3;
+    bool quick = false;
     int threads = 0;
     bool calibrate = false;
     bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
@@ -103,6 +108,18 @@ int calibrate_command(const Arguments& a) {
                       .seeds = a.seeds,
                       .threads = a.threads,
                       .curve = a.out});
+}
+
+int bench_error_command(const Arguments& a) {
+    install_stop_signals();
+    const std::string own = a.quick ? "bench/error/quick.toml" : "bench/error/plan.toml";
+    return bench::bench_error({.plan = a.plan.empty() ? own : a.plan,
+                               .cases = a.cases,
+                               .methods = a.compared,
+                               .repeats = a.repeats,
+                               .folder = a.out,
+                               .resume = a.resume,
+                               .force = a.force});
 }
 
 int validate_command(const Arguments& a) {
@@ -206,6 +223,19 @@ void calibrate_options(CLI::App& command, Arguments& a) {
     command.add_option("--out", a.out, "CSV file for the curves of the check");
 }
 
+void bench_error_options(CLI::App& command, Arguments& a) {
+    command.add_option("--plan", a.plan, "cases and settings (TOML); bench/error/plan.toml if not given");
+    command.add_flag("--quick", a.quick, "bench/error/quick.toml instead, a few seconds");
+    command.add_option("--case", a.cases, "only these cases, comma separated")->delimiter(',');
+    command.add_option("--method", a.compared, "only these methods, comma separated")->delimiter(',');
+    command.add_option("--repeats", a.repeats, "of every run; CPU times are medians")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command.add_option("--out", a.out, "folder for the results")->default_val("results/bench_error");
+    command.add_flag("--resume", a.resume, "keep the runs in the folder that are finished");
+    command.add_flag("--force", a.force, "replace results that are in the folder");
+}
+
 void run_options(CLI::App& command, Arguments& a) {
     scenario_options(command, a);
     thread_option(command, a);
@@ -267,6 +297,14 @@ int command_line(int argc, char** argv) {
     scenario_options(*add("validate", "check a scenario file and say all that is wrong with it",
                           validate_command, "validate my_scenario.toml"),
                      a);
+    CLI::App* bench = app.add_subcommand("bench", "measure the methods");
+    bench->require_subcommand(1);
+    CLI::App* bench_error_app =
+        bench->add_subcommand("error", "error against cost for every method and setting of a plan");
+    bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
+    bench_error_app->callback([&chosen] { chosen = bench_error_command; });
+    bench_error_options(*bench_error_app, a);
+
     add("list", "methods, history columns and scenario keys", list_command, "list --keys")
         ->add_flag("--keys", a.keys, "every key of a scenario file with type, default, range and meaning");
     add("info", "what a results folder holds", info_command, "info results/default/sdem")

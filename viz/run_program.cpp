@@ -32,7 +32,7 @@ std::string read_to_end(int descriptor) {
 
 }  // namespace
 
-std::optional<std::string> run_program(const std::vector<std::string>& arguments) {
+std::optional<std::string> run_program(const std::vector<std::string>& arguments, ChildOutput output) {
     std::array<int, 2> pipe_ends{};
     if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
         return fmt::format("cannot make a pipe: {}", std::strerror(errno));
@@ -42,6 +42,8 @@ std::optional<std::string> run_program(const std::vector<std::string>& arguments
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
+    if (output == ChildOutput::dropped)
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
     const int spawned = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);

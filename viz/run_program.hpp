@@ -6,8 +6,12 @@
 
 namespace softgrain {
 
+/// What a child writes to stdout.
+enum class ChildOutput { passed_on, dropped };
+
 /// Runs a program, given with its arguments, to its end with its messages read from stderr. Returns why it
 /// failed, if it did.
-std::optional<std::string> run_program(const std::vector<std::string>& arguments);
+std::optional<std::string> run_program(const std::vector<std::string>& arguments,
+                                       ChildOutput output = ChildOutput::passed_on);
 
 }  // namespace softgrain

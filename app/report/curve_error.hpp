@@ -18,14 +18,28 @@ struct Truth {
 std::optional<Truth> find_truth(const std::vector<MethodResult>& results,
                                 const std::optional<Reference>& reference);
 
-/// First and largest packing fraction of a run.
+/// A quantity y over what the loading increases.
+struct Curve {
+    std::vector<double> x, y;  ///< [n]
+};
+
+/// First and largest x of a curve, or packing fraction of a run.
 struct Covered {
     double low, high;
 };
 Covered covered(const History& history);
+Covered covered(const Curve& curve);
 
-/// Errors over the packing fractions that both curves pass. Relative L2: the root of the integral of the
-/// squared difference over that of the squared truth.
+/// What both cover; none if that is less than 1e-3.
+std::optional<Covered> common_range(const Covered& a, const Covered& b);
+
+/// Root of the integral of the squared difference over that of the squared scale, which is the truth itself
+/// where none is given; linear between samples, at the first passage of x. None if a curve does not pass the
+/// whole range, or a value is not finite.
+std::optional<double> relative_l2(const Curve& curve, const Curve& truth, const Covered& over,
+                                  const Curve* scale = nullptr);
+
+/// Relative L2 errors over the packing fractions that both curves pass.
 struct CurveError {
     Covered over;
     double share;                        ///< of the truth's range that is covered

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "common/errors.hpp"
 
@@ -142,6 +143,20 @@ const Node* Node::find(std::string_view name) const {
 }
 Node* Node::find(std::string_view name) {
     return const_cast<Node*>(std::as_const(*this).find(name));
+}
+
+std::string read_document(const std::filesystem::path& path, std::string_view what) {
+    std::error_code status;
+    if (!std::filesystem::exists(path, status))
+        throw InputError(fmt::format("{}: there is no such {} file", path.string(), what));
+    std::ifstream file(path, std::ios::binary);
+    if (std::filesystem::is_directory(path, status) || !file)
+        throw InputError(fmt::format("{}: cannot be read as a {} file", path.string(), what));
+    std::string text(largest_document + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad()) throw InputError(fmt::format("{}: reading stopped early", path.string()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    return text;
 }
 
 Node parse_document(std::string_view text, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 // A TOML text as a plain tree with positions. Only its source file sees the TOML library.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,10 @@ struct Node {
 /// Bytes of a scenario, and of one of its lines, beyond which it is refused.
 inline constexpr std::size_t largest_document = std::size_t{1} << 20;
 inline constexpr std::size_t longest_line = 2000;
+
+/// The text of a file, at most one byte more than a document may have. `what` names it in messages:
+/// "scenario". Throws InputError if it cannot be read.
+std::string read_document(const std::filesystem::path& path, std::string_view what);
 
 /// The document's tree. Throws InputError naming `name`, line and column.
 Node parse_document(std::string_view text, const std::string& name);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -244,21 +243,6 @@ class Reader {
     std::vector<TableSpec> tables_;
 };
 
-/// At most one byte more than a document may have.
-std::string read_text(const std::filesystem::path& path) {
-    std::error_code status;
-    if (!std::filesystem::exists(path, status))
-        throw InputError(fmt::format("{}: there is no such scenario file", path.string()));
-    std::ifstream file(path, std::ios::binary);
-    if (std::filesystem::is_directory(path, status) || !file)
-        throw InputError(fmt::format("{}: cannot be read as a scenario file", path.string()));
-    std::string text(largest_document + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad()) throw InputError(fmt::format("{}: reading stopped early", path.string()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    return text;
-}
-
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name,
@@ -273,7 +257,7 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
 
 Scenario read_scenario(const std::filesystem::path& path, std::span<const std::string> overrides,
                        std::span<const MethodKeys> methods) {
-    return parse_scenario(read_text(path), path, overrides, methods);
+    return parse_scenario(read_document(path, "scenario"), path, overrides, methods);
 }
 
 }  // namespace softgrain

@@ -1,0 +1,15 @@
+#pragma once
+// Work-precision diagrams.
+#include <optional>
+
+#include "app/bench/rows.hpp"
+#include "viz/plot_spec.hpp"
+
+namespace softgrain::bench {
+
+/// Error of a quantity over CPU time, logarithmic both: a line for each knob in the colour of its method, the
+/// Pareto front of stress in black, the reference's own error as a band, what is not eligible as crosses.
+/// None if no row has such an error.
+std::optional<PlotSpec> error_plot(const CaseRows& one, std::size_t quantity);
+
+}  // namespace softgrain::bench
