@@ -42,8 +42,7 @@ std::optional<std::string> run_program(const std::vector<std::string>& arguments
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
-    if (output == ChildOutput::dropped)
-        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (output == ChildOutput::read) posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
     pid_t child = 0;
     const int spawned = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);

@@ -6,8 +6,8 @@
 
 namespace softgrain {
 
-/// What a child writes to stdout.
-enum class ChildOutput { passed_on, dropped };
+/// What becomes of a child's stdout: passed on, or read as its messages are.
+enum class ChildOutput { passed_on, read };
 
 /// Runs a program, given with its arguments, to its end with its messages read from stderr. Returns why it
 /// failed, if it did.

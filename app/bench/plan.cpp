@@ -30,7 +30,7 @@ constexpr std::array<QuantityKeys, quantity_count> quantity_keys{
     {{"stress", "stress_error", "stress_scale"},
      {"coordination", "coordination_error", "coordination_scale"},
      {"deviatoric", "deviatoric_error", "deviatoric_scale"},
-     {"shape", "shape_error", "shape_scale"}}};
+     {"area", "area_error", "area_scale"}}};
 
 const Keys& case_keys() {
     static const Keys keys = [] {

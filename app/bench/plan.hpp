@@ -19,7 +19,7 @@ struct QuantityName {
 inline constexpr std::array<QuantityName, quantity_count> quantity_names{{{"stress", "mean stress"},
                                                                           {"coordination", "Z"},
                                                                           {"deviatoric", "deviatoric stress"},
-                                                                          {"shape", "grain shape"}}};
+                                                                          {"area", "loss of grain area"}}};
 inline constexpr std::size_t stress = 0;  ///< the quantity that decides
 
 /// The same quantity of a run and of the reference.

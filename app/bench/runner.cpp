@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
@@ -92,7 +93,7 @@ RunReport run_once(const Job& job, const fs::path& folder) {
                                      "--out",
                                      folder.string()};
     for (const std::string& one : job.set) command.insert(command.end(), {"--set", one});
-    const auto failure = run_program(command, ChildOutput::dropped);
+    const auto failure = run_program(command, ChildOutput::read);
     if (fs::exists(folder / "run.json")) {
         tidy(folder);
         return read_report(folder);
@@ -101,6 +102,7 @@ RunReport run_once(const Job& job, const fs::path& folder) {
     refused.method = job.measurement.setting->method;
     refused.exit_code = 2;
     refused.ended = failure.value_or("left no run.json");
+    refused.ended.resize(std::min(refused.ended.find('\n'), refused.ended.size()));
     return refused;
 }
 

@@ -111,7 +111,9 @@ std::string cheapest_table(const CaseRows& one) {
 
 std::string all_settings(const CaseRows& one) {
     const auto front = pareto_front(one);
-    const double least = std::ranges::min(one.rows, {}, [](const Row& row) { return row.cost.cpu; }).cost.cpu;
+    std::optional<double> least;
+    for (const Row& row : one.rows)
+        if (row.report.steps > 0) least = std::min(least.value_or(row.cost.cpu), row.cost.cpu);
     Table table{{"setting", "CPU time / least", "CPU time", "memory", "covered"}};
     for (std::size_t q = 0; q < quantity_count; ++q)
         if (one.of->quantities[q])
@@ -122,7 +124,7 @@ std::string all_settings(const CaseRows& one) {
         const bool ran = row.report.steps > 0, is_best = std::ranges::find(front, k) != front.end();
         table.push_back(
             {fmt::format("{}{}, {}", is_best ? "* " : "", row.setting->method, setting_name(*row.setting)),
-             ran && least > 0.0 ? times(row.cost.cpu / least) : none,
+             ran && *least > 0.0 ? times(row.cost.cpu / *least) : none,
              ran ? report::seconds(row.cost.cpu) : none,
              ran ? fmt::format("{:.0f} MB", row.cost.memory / 1e6) : none,
              report::whole_percent(row.coverage)});

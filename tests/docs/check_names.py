@@ -36,8 +36,12 @@ class Program:
         return set(re.findall(r"^  ([a-z]+)\s", self.output((*words, "--help")).partition("Subcommands:")[2], re.M))
 
     def options(self, render: bool, command: str) -> set[str]:
-        program = "softgrain-render" if render else "softgrain"
-        return set(OPTION.findall(self.output((program, command, "--help")))) | {"--help"}
+        """Of a command and of those below it."""
+        words = ("softgrain-render" if render else "softgrain", command)
+        found = set(OPTION.findall(self.output((*words, "--help")))) | {"--help"}
+        for below in self.listed_commands(words):
+            found |= set(OPTION.findall(self.output((*words, below, "--help"))))
+        return found
 
     def all_options(self) -> set[str]:
         found = set(OPTION.findall(self.output(("softgrain-render", "--help"))))
