@@ -17,20 +17,28 @@ std::optional<double> least_error(const CaseRows& one, const std::string& method
     return least;
 }
 
-/// Mean logarithm of CPU time over the cases where the method has an eligible row; none if the setting is not
-/// nearly as good as the method's best on one of them.
-std::optional<double> price(const std::vector<CaseRows>& cases, const Setting& setting) {
-    double sum = 0.0;
+/// A setting over all cases where its method has an eligible row.
+struct Overall {
+    const Setting* setting;
+    double worst;    ///< largest ratio of its error to the method's least
+    double log_cpu;  ///< mean logarithm of CPU time
+};
+
+/// None if the setting is not eligible on one of the cases.
+std::optional<Overall> overall(const std::vector<CaseRows>& cases, const Setting& setting) {
+    Overall all{&setting, 0.0, 0.0};
     int count = 0;
     for (const CaseRows& one : cases) {
         const auto least = least_error(one, setting.method);
         if (!least) continue;
         const Row* row = row_of(one, setting);
-        if (!row || !is_eligible(*row) || one.known_error(*row) > worse_by * *least) return std::nullopt;
-        sum += std::log(row->cost.cpu);
+        if (!row || !is_eligible(*row)) return std::nullopt;
+        all.worst = std::max(all.worst, one.known_error(*row) / *least);
+        all.log_cpu += std::log(row->cost.cpu);
         ++count;
     }
-    return count > 0 ? std::optional(sum / count) : std::nullopt;
+    all.log_cpu /= count;
+    return count > 0 ? std::optional(all) : std::nullopt;
 }
 
 }  // namespace
@@ -62,17 +70,15 @@ const Row* cheapest(const CaseRows& one, double most_error, const std::string& m
 }
 
 const Setting* recommended(const std::vector<CaseRows>& cases, const std::string& method) {
-    const Setting* best = nullptr;
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Overall> all;
     for (const CaseRows& one : cases)
-        for (const Row& row : one.rows) {
-            if (row.setting->method != method) continue;
-            const auto own = price(cases, *row.setting);
-            if (!own || *own >= least) continue;
-            least = *own;
-            best = row.setting;
-        }
-    return best;
+        for (const Row& row : one.rows)
+            if (row.setting->method == method)
+                if (const auto own = overall(cases, *row.setting)) all.push_back(*own);
+    if (all.empty()) return nullptr;
+    const double least = std::ranges::min(all, {}, &Overall::worst).worst;
+    std::erase_if(all, [&](const Overall& one) { return one.worst > worse_by * least; });
+    return std::ranges::min(all, {}, &Overall::log_cpu).setting;
 }
 
 const Row* row_of(const CaseRows& one, const Setting& setting) {

@@ -14,9 +14,10 @@ std::vector<std::size_t> pareto_front(const CaseRows& one);
 /// The cheapest eligible row with a known error of stress of at most this; of one method if it is named.
 const Row* cheapest(const CaseRows& one, double most_error, const std::string& method = {});
 
-/// The cheapest setting of a method that is nearly as good as its best on every case. Nearly: at most
-/// `worse_by` times the least error of this method on that case. Cheap: geometric mean over the cases of CPU
-/// time. Only settings that are eligible wherever any of the method's is. None if there is no such setting.
+/// The cheapest setting of a method that is nearly as good as can be on all cases. How bad a setting is: the
+/// largest ratio, over the cases, of its error to the method's least; nearly: at most `worse_by` times the
+/// smallest of these ratios. Cheap: geometric mean over the cases of CPU time. Only settings that are
+/// eligible wherever any of the method's is; null if there is none.
 inline constexpr double worse_by = 1.25;
 const Setting* recommended(const std::vector<CaseRows>& cases, const std::string& method);
 

@@ -297,6 +297,10 @@ bool Setting::is_for(const Case& one) const {
     return cases.empty() || std::ranges::find(cases, one.name) != cases.end();
 }
 
+std::string Setting::name() const {
+    return label == knob ? knob : fmt::format("{}, {}", knob, label);
+}
+
 Plan read_plan(const std::filesystem::path& path) {
     return Reader(path).read();
 }

@@ -47,6 +47,7 @@ struct Setting {
     int line = 0;                    ///< in the plan
 
     bool is_for(const Case& one) const;
+    std::string name() const;  ///< "loading rate, inertial_number = 1e-3"
 };
 
 /// A ratio to print: the cheapest setting of a method within an error beside the last one of a knob.

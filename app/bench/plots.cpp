@@ -15,7 +15,8 @@ namespace {
 constexpr int black = 4;  ///< in the palette
 constexpr std::array markers{MarkerStyle::circle, MarkerStyle::square, MarkerStyle::diamond,
                              MarkerStyle::plus};
-constexpr double least_error = 1e-4;  ///< drawn
+constexpr double least_error = 1e-4;  ///< that is drawn as it is
+constexpr double most_error = 3.0;
 
 /// A method's colour is the same in all plots: its place in the table of methods.
 int colour_of(const std::string& method) {
@@ -30,7 +31,6 @@ struct Bounds {
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    /// To whole steps of 1, 2, 5 times a power of ten, with some room.
     void widen() {
         low /= 1.5;
         high *= 1.5;
@@ -38,7 +38,7 @@ struct Bounds {
 };
 
 double drawn(double error) {
-    return std::max(error, least_error);
+    return std::clamp(error, least_error, most_error);
 }
 
 /// Rows of one knob with this error, cheapest first.
@@ -99,7 +99,9 @@ std::optional<PlotSpec> error_plot(const CaseRows& one, std::size_t quantity) {
             series.label = fmt::format("{}, {}", knob->method, knob->knob);
             series.colour = colour;
             series.width = 0.6;
-            series.marker = markers[drawn_of[static_cast<std::size_t>(colour)]++ % markers.size()];
+            const std::size_t number = drawn_of[static_cast<std::size_t>(colour)]++;
+            series.marker = markers[number % markers.size()];
+            series.line = number < markers.size() ? LineStyle::solid : LineStyle::dashed;
             add(std::move(series));
         }
         if (const auto rows = sweep(one, quantity, *knob, false); !rows.empty()) {
@@ -107,7 +109,7 @@ std::optional<PlotSpec> error_plot(const CaseRows& one, std::size_t quantity) {
             series.colour = colour;
             series.line = LineStyle::none;
             series.marker = MarkerStyle::cross;
-            if (!has_short) series.label = "x: not to the end";
+            if (!has_short) series.label = "x: covers too little, or failed";
             has_short = true;
             add(std::move(series));
         }

@@ -8,8 +8,8 @@
 namespace softgrain::bench {
 
 /// Error of a quantity over CPU time, logarithmic both: a line for each knob in the colour of its method, the
-/// Pareto front of stress in black, the reference's own error as a band, what is not eligible as crosses.
-/// None if no row has such an error.
+/// Pareto front of stress in black, the reference's own error as a band, what is not eligible as crosses;
+/// errors above 3 at 3. None if no row has such an error.
 std::optional<PlotSpec> error_plot(const CaseRows& one, std::size_t quantity);
 
 }  // namespace softgrain::bench

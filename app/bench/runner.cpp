@@ -103,10 +103,16 @@ RunReport run_once(const Job& job, const fs::path& folder) {
     refused.exit_code = 2;
     refused.ended = failure.value_or("left no run.json");
     refused.ended.resize(std::min(refused.ended.find('\n'), refused.ended.size()));
+    if (const std::string begin = refused.method + ": "; refused.ended.starts_with(begin))
+        refused.ended.erase(0, begin.size());
     return refused;
 }
 
 }  // namespace
+
+std::string_view ended_in_short(const RunReport& report) {
+    return std::string_view(report.ended).substr(0, report.ended.find(':'));
+}
 
 std::vector<Measurement> run_plan(const Plan& plan, const RunnerOptions& options) {
     std::vector<Job> jobs = jobs_of(plan, options.folder);
@@ -125,7 +131,7 @@ std::vector<Measurement> run_plan(const Plan& plan, const RunnerOptions& options
             const RunReport& report = measurement.repeats.back();
             if (earlier) continue;
             fmt::print("{}/{} {} {}, {}: {:.2f} s, {}\n", number, all, measurement.of->name, report.method,
-                       measurement.setting->label, report.cpu_time, report.ended);
+                       measurement.setting->name(), report.cpu_time, ended_in_short(report));
             std::fflush(stdout);
         }
     std::vector<Measurement> measured;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/bench/plan.hpp"
@@ -23,6 +24,9 @@ struct Measurement {
     std::vector<RunReport> repeats;  ///< exit_code 2 and why in `ended` if the method refused the scenario
     std::optional<History> history;  ///< none if no step was made
 };
+
+/// How a run ended, without what comes after the colon.
+std::string_view ended_in_short(const RunReport& report);
 
 /// Runs all settings on all cases that have their reference, in the order of the plan, and prints a line for
 /// each run. Throws InputError before the first run if a scenario is not sound. Ends early once stop_signal()

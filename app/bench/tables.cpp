@@ -36,6 +36,7 @@ std::string times(double ratio) {
 
 std::string error_cell(const CaseRows& one, const Row& row, std::size_t quantity) {
     if (!row.error[quantity]) return none;
+    if (*row.error[quantity] > 10.0) return "> 1000 %";
     const std::string text = report::percent(*row.error[quantity]);
     return one.is_at_own_error(row, quantity) ? "own (" + text + ")" : text;
 }
@@ -61,10 +62,10 @@ std::string headline(const Headline& one, const std::vector<CaseRows>& cases) {
     return fmt::format(
         "- {}: {} ({}) is **{} times cheaper** than {} ({}), {} and {} of CPU time, at {} error of stress; "
         "asked is {} times at {}: {}.\n",
-        one.case_name, one.method, setting_name(*ratio->cheap->setting), times(ratio->times),
-        ratio->dear->setting->method, setting_name(*ratio->dear->setting),
-        report::seconds(ratio->cheap->cost.cpu), report::seconds(ratio->dear->cost.cpu),
-        report::percent(*ratio->cheap->error[stress]), times(one.times), report::whole_percent(one.error),
+        one.case_name, one.method, ratio->cheap->setting->name(), times(ratio->times),
+        ratio->dear->setting->method, ratio->dear->setting->name(), report::seconds(ratio->cheap->cost.cpu),
+        report::seconds(ratio->dear->cost.cpu), report::percent(*ratio->cheap->error[stress]),
+        times(one.times), report::whole_percent(one.error),
         ratio->times >= one.times ? "reached" : "not reached");
 }
 
@@ -73,7 +74,7 @@ std::string recommendations(const std::vector<CaseRows>& cases) {
     for (const CaseRows& one : cases) table.front().push_back(one.of->name);
     for (const std::string& method : methods_of(cases)) {
         const Setting* setting = recommended(cases, method);
-        table.push_back({method, setting ? setting_name(*setting) : "none"});
+        table.push_back({method, setting ? setting->name() : "none"});
         for (const CaseRows& one : cases) {
             const Row* row = setting ? row_of(one, *setting) : nullptr;
             table.back().push_back(
@@ -83,8 +84,11 @@ std::string recommendations(const std::vector<CaseRows>& cases) {
         }
     }
     return fmt::format(
-        "## Recommended settings\n\nOf each method the cheapest setting whose error of stress is on every "
-        "case at most {:g} times the method's least. Error of stress and CPU time:\n\n{}\n",
+        "## Recommended settings\n\nOf each method the cheapest setting that is nearly as good as can be on "
+        "all cases: the "
+        "largest ratio of its error of stress to the method's least is at most {:g} times the smallest such "
+        "ratio. Error "
+        "of stress and CPU time:\n\n{}\n",
         worse_by, markdown_table(table));
 }
 
@@ -96,14 +100,14 @@ std::string cheapest_table(const CaseRows& one) {
         const Row* best = cheapest(one, target);
         table.push_back({report::whole_percent(target), none, none});
         if (best) {
-            table.back()[1] = fmt::format("{}, {}", best->setting->method, setting_name(*best->setting));
+            table.back()[1] = fmt::format("{}, {}", best->setting->method, best->setting->name());
             table.back()[2] = report::seconds(best->cost.cpu);
         }
         for (const std::string& name : names) {
             const Row* own = cheapest(one, target, name);
-            table.back().push_back(own ? fmt::format("{} ({})", times(own->cost.cpu / best->cost.cpu),
-                                                     setting_name(*own->setting))
-                                       : none);
+            table.back().push_back(
+                own ? fmt::format("{} ({})", times(own->cost.cpu / best->cost.cpu), own->setting->name())
+                    : none);
         }
     }
     return markdown_table(table);
@@ -123,14 +127,14 @@ std::string all_settings(const CaseRows& one) {
         const Row& row = one.rows[k];
         const bool ran = row.report.steps > 0, is_best = std::ranges::find(front, k) != front.end();
         table.push_back(
-            {fmt::format("{}{}, {}", is_best ? "* " : "", row.setting->method, setting_name(*row.setting)),
+            {fmt::format("{}{}, {}", is_best ? "* " : "", row.setting->method, row.setting->name()),
              ran && *least > 0.0 ? times(row.cost.cpu / *least) : none,
              ran ? report::seconds(row.cost.cpu) : none,
              ran ? fmt::format("{:.0f} MB", row.cost.memory / 1e6) : none,
              report::whole_percent(row.coverage)});
         for (std::size_t q = 0; q < quantity_count; ++q)
             if (one.of->quantities[q]) table.back().push_back(error_cell(one, row, q));
-        table.back().push_back(row.report.ended.substr(0, row.report.ended.find(':')));
+        table.back().emplace_back(ended_in_short(row.report));
     }
     return markdown_table(table);
 }
@@ -171,10 +175,6 @@ std::string measured_on(const std::vector<CaseRows>& cases) {
 }
 
 }  // namespace
-
-std::string setting_name(const Setting& setting) {
-    return setting.label == setting.knob ? setting.knob : fmt::format("{}, {}", setting.knob, setting.label);
-}
 
 std::string error_csv(const std::vector<CaseRows>& cases) {
     std::string text =

@@ -7,9 +7,6 @@
 
 namespace softgrain::bench {
 
-/// "loading rate, inertial_number = 1e-3".
-std::string setting_name(const Setting& setting);
-
 /// One row for each case and setting.
 std::string error_csv(const std::vector<CaseRows>& cases);
 

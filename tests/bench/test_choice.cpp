@@ -90,15 +90,20 @@ TEST_F(Choice, TheCheapestWithinAnError) {
     EXPECT_EQ(cheapest(one.rows, 0.2, "rigid_dem"), nullptr) << "covers too little";
 }
 
-TEST_F(Choice, RecommendedIsGoodOnEveryCaseAndThenCheap) {
-    EXPECT_EQ(recommended({one.rows}, "sdem"), &slow);
-    EXPECT_EQ(recommended({one.rows}, "bpm"), nullptr);
+TEST_F(Choice, RecommendedIsGoodOnAllCasesAndThenCheap) {
+    EXPECT_EQ(recommended({one.rows}, "sdem"), &slow) << "slower is as good";
+    EXPECT_EQ(recommended({one.rows}, "bpm"), nullptr) << "it failed";
     MadeUp other("other");
     other.add(slow, 4.0, 0.2);
     other.add(slower, 8.0, 0.1);
-    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), &slower);
-    other.add(fast, 1.0, 0.01);
-    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), nullptr) << "none is good on both";
+    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), &slower) << "slow is twice as wrong on the other";
+    other.add(fast, 1.0, 0.05);
+    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), &slower)
+        << "2 times the least at most, of fast it is 3.75";
+    other.rows.rows[1].coverage = 0.5;
+    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), &fast) << "3.75 times at most, of slow it is 4";
+    other.rows.rows[0].report.exit_code = other.rows.rows[2].report.exit_code = 3;
+    EXPECT_EQ(recommended({one.rows, other.rows}, "sdem"), &slow) << "the other case does not count";
 }
 
 TEST_F(Choice, RatioIsOfTheCheapestToTheLastOfTheKnob) {

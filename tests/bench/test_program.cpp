@@ -55,7 +55,7 @@ TEST_F(BenchProgram, AQuickBenchAndWhatIsKeptOfIt) {
     const std::string out = "--quick --repeats 2 --out " + (folder / "b").string();
     const Outcome first = bench_error(out);
     ASSERT_EQ(first.exit_code, 0) << first.said;
-    EXPECT_NE(first.said.find("10/10 four_walls mpm, points_across_radius = 8"), std::string::npos)
+    EXPECT_NE(first.said.find("10/10 four_walls mpm, grid, points_across_radius = 8"), std::string::npos)
         << first.said;
     EXPECT_NE(first.said.find("times cheaper"), std::string::npos) << first.said;
     const std::string csv = content(folder / "b" / "error.csv");
@@ -103,6 +103,8 @@ TEST_F(BenchProgram, AMethodThatRefusesIsARowWithItsReason) {
     EXPECT_NE(o.said.find("d: left out, its reference"), std::string::npos) << o.said;
     EXPECT_NE(content(folder / "b" / "error.csv").find("material.cohesion"), std::string::npos)
         << content(folder / "b" / "error.csv");
+    EXPECT_NE(o.said.find("c bpm, defaults: 0.00 s, cannot run this scenario\n"), std::string::npos)
+        << o.said;
     EXPECT_NE(o.said.find("sdem, fast"), std::string::npos) << "the others go on\n" << o.said;
 }
 
