@@ -114,6 +114,8 @@ Parameters parameters_of(const Scenario& scenario) {
     if (c.friction > 0.0 || c.rolling_friction > 0.0) law.features |= has_friction;
     if (c.rolling_friction > 0.0) law.features |= has_rolling;
     if (c.adhesion > 0.0) law.features |= has_friction | has_adhesion;
+    law.features_at_walls = law.features & (has_damping | has_rolling);
+    if (law.at_walls.friction > 0.0 || c.rolling_friction > 0.0) law.features_at_walls |= has_friction;
     law.rotates = (law.features & has_friction) != 0 || material.wall_friction > 0.0;
     return law;
 }

@@ -15,7 +15,8 @@ struct Parameters {
     double stiffness;                   ///< of one grain at a rigid wall / E
     std::optional<double> shear_ratio;  ///< tangential / normal stiffness; Mindlin's if not given, of Hertz
     unsigned features;                  ///< of contacts between grains
-    bool rotates;                       ///< contacts turn grains
+    unsigned features_at_walls;
+    bool rotates;  ///< contacts turn grains
     bool bonds_of_start_only;
     LawConstants between_grains, at_walls;
     double nonviscous_damping;   ///< Cundall's lambda_d

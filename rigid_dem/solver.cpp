@@ -36,6 +36,7 @@ struct RigidDem::BlockTotals {
 RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     : law_(parameters_of(scenario)),
       kernel_(pair_kernel(law_.hertz, law_.features, packing.box.periodic)),
+      wall_kernel_(wall_kernel(law_.hertz, law_.features_at_walls)),
       uniform_(!law_.hertz && scenario.class_count() == 1),
       box_(packing.box),
       walls_{packing.box, {}, 0.0},
@@ -236,7 +237,7 @@ RigidDem::BlockTotals RigidDem::contact_forces(std::size_t b, const WallMotion& 
     totals.adhesion_loss = sum(sums.adhesion_loss);
     totals.overlap = largest(sums.overlap);
     if (!box_.periodic) {
-        const WallSums at_walls = press_on_walls(wall_contacts_[b], record_, force_, cell, law_, dt);
+        const WallSums at_walls = wall_kernel_(wall_contacts_[b], record_, force_, cell, law_.at_walls, dt);
         totals.wall_force = at_walls.force;
         totals.friction_loss += at_walls.friction_loss;
         totals.damping_loss += at_walls.damping_loss;

@@ -142,6 +142,7 @@ class RigidDem final : public Solver {
 
     Parameters law_;
     PairKernel kernel_;
+    WallKernel wall_kernel_;
     bool uniform_;                         ///< all pairs are equally stiff
     Box box_;                              ///< as the loop moves it
     WallMotion walls_;                     ///< of the last step, its box at the end of it

@@ -1,5 +1,5 @@
 #pragma once
-// Grains near straight walls. They are few: one at a time, with every part that a law may have.
+// Grains near straight walls. They are few: one at a time.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -28,13 +28,17 @@ struct WallSums {
 /// Positive where the grain touches the wall [m].
 double wall_overlap(const GrainRecord& grain, int wall, const Box& box);
 
-/// Force after a step dt; takes the contact's memory along.
+/// Force after a step dt, with every part that a law may have; takes the contact's memory along.
 ContactForce wall_force(WallContact& contact, const GrainRecord& grain, const WallMotion& walls,
                         const Parameters& law, double dt);
 
 /// Adds the forces of a block's contacts to its grains; `force` by record.
-WallSums press_on_walls(std::vector<WallContact>& contacts, const std::vector<GrainRecord>& grain,
-                        std::vector<ForceSum>& force, const WallMotion& walls, const Parameters& law,
-                        double dt);
+using WallKernel = WallSums (*)(std::vector<WallContact>& contacts, const std::vector<GrainRecord>& grain,
+                                std::vector<ForceSum>& force, const WallMotion& walls,
+                                const LawConstants& law, double dt);
+
+/// The kernel with these parts of a law and no others; has_rolling comes with has_friction, and has_adhesion
+/// is not for walls.
+WallKernel wall_kernel(bool hertz, unsigned features);
 
 }  // namespace softgrain::rigid_dem

@@ -124,6 +124,11 @@ double set_geometry(WallRows& rows, const Discs& discs, const Box& box, double h
 
 void warm_start(const ContactRows& rows, const Discs& discs, const Resistance& resistance, int first,
                 int last) {
+    if (resistance.friction == 0.0 && resistance.rolling == 0.0) {
+        for (std::size_t k = at(first); k < at(last); ++k)
+            push(rows, discs, k, rows.normal[k], rows.direction[k]);
+        return;
+    }
     for (std::size_t k = at(first); k < at(last); ++k) {
         push(rows, discs, k, rows.normal[k], rows.direction[k]);
         if (resistance.friction > 0.0) rub(rows, discs, k, rows.tangential[k]);

@@ -6,6 +6,7 @@
 
 #include "rigid_dem/laws/contact.hpp"
 #include "rigid_dem/restitution.hpp"
+#include "rigid_dem/wall_contacts.hpp"
 #include "tests/rigid_dem/scenes.hpp"
 
 namespace softgrain::rigid_dem {
@@ -223,6 +224,41 @@ TEST(NonviscousDamping, AmplitudeOfAnOscillationFallsAsInTheClosedForm) {
     EXPECT_NEAR(largest_beyond, start * std::sqrt((1.0 - share) / (1.0 + share)), 1e-3 * start);
     const EnergyLedger e = dem.view(Need::base).energy;
     EXPECT_NEAR(e.damping, start * start - largest_beyond * largest_beyond, 1e-3 * start * start);
+}
+
+/// A grain that slides, spins and presses on the bottom wall, over two steps.
+std::array<double, 8> at_wall(bool hertz, unsigned features, const LawConstants& law) {
+    const WallMotion walls{Box{}, {}, 0.0};
+    const std::vector<GrainRecord> grain{{.x = 0.5,
+                                          .y = 0.24,
+                                          .vx = 0.3,
+                                          .vy = -0.2,
+                                          .spin = 0.7,
+                                          .radius = 0.25,
+                                          .rim_speed = 0.175,
+                                          .inverse_mass = 2.0}};
+    std::vector<WallContact> contacts{{0, 2, {1.5, 0.5}, {}}};
+    std::vector<ForceSum> force(1);
+    const WallKernel kernel = wall_kernel(hertz, features);
+    kernel(contacts, grain, force, walls, law, 0.01);
+    const WallSums sums = kernel(contacts, grain, force, walls, law, 0.01);
+    return {force[0].fx,       force[0].fy,       force[0].shear,     force[0].lost_torque,
+            sums.force[2].x(), sums.force[2].y(), sums.friction_loss, sums.damping_loss};
+}
+
+TEST(AtWalls, PartsThatAreLeftOutHadNoEffect) {
+    constexpr unsigned all = has_damping | has_friction | has_rolling;
+    for (const bool hertz : {false, true}) {
+        LawConstants law;
+        EXPECT_EQ(at_wall(hertz, no_part, law), at_wall(hertz, all, law));
+        law.damping = 0.4;
+        EXPECT_EQ(at_wall(hertz, has_damping, law), at_wall(hertz, all, law));
+        law.friction = 0.3;
+        EXPECT_EQ(at_wall(hertz, has_damping | has_friction, law), at_wall(hertz, all, law));
+        EXPECT_NE(at_wall(hertz, has_damping, law), at_wall(hertz, all, law));
+        law.rolling_friction = law.rolling_stiffness = 0.2;
+        EXPECT_NE(at_wall(hertz, has_damping | has_friction, law), at_wall(hertz, all, law));
+    }
 }
 
 }  // namespace
