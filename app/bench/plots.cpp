@@ -41,14 +41,13 @@ double drawn(double error) {
     return std::clamp(error, least_error, most_error);
 }
 
-/// Rows of one knob with this error, cheapest first.
+/// Rows of one knob with this error, in the order of the plan.
 std::vector<const Row*> sweep(const CaseRows& one, std::size_t quantity, const Setting& knob, bool eligible) {
     std::vector<const Row*> rows;
     for (const Row& row : one.rows)
         if (row.setting->knob == knob.knob && row.setting->method == knob.method && row.error[quantity] &&
             is_eligible(row) == eligible && row.cost.cpu > 0.0)
             rows.push_back(&row);
-    std::ranges::stable_sort(rows, {}, [](const Row* row) { return row->cost.cpu; });
     return rows;
 }
 
