@@ -79,7 +79,6 @@ class Saving(NamedTuple):
 SAVINGS = [
     Saving("sdem", "list of neighbours kept while they move little", "sdem.toml", ["sdem.skin=1e-9"]),
     Saving("rigid_dem", "list of neighbours kept while they move little", "rigid_dem.toml", ["rigid_dem.skin=1e-9"]),
-    Saving("rigid_dem", "no look at the list while speeds rule motion out", "rigid_dem.toml", "saved_rigid_dem_moved_distance"),
     Saving("bpm", "no sweeps over blocks that have come to rest", "bpm.toml", "saved_bpm_resting_blocks"),
     Saving("sdem", "coarse rate before jamming", "loose.toml", ["loading.0.inertial_number=1e-3"]),
     Saving("rigid_dem", "coarse rate before jamming", "loose.toml", ["loading.0.inertial_number=1e-3"]),
