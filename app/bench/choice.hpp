@@ -25,6 +25,7 @@ const Setting* recommended(const std::vector<CaseRows>& cases, const std::string
 const Row* row_of(const CaseRows& one, const Setting& setting);
 
 /// How much cheaper the cheapest setting of a method within an error is than the last eligible one of a knob.
+/// Rows are those of `cases`, which must outlive it.
 struct Ratio {
     const Row *cheap, *dear;
     double times;

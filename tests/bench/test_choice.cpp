@@ -108,15 +108,16 @@ TEST_F(Choice, RecommendedIsGoodOnAllCasesAndThenCheap) {
 
 TEST_F(Choice, RatioIsOfTheCheapestToTheLastOfTheKnob) {
     Headline headline{"one", "sdem", "knob", 0.1, 200.0};
-    const auto ratio = ratio_of(headline, {one.rows});
+    const std::vector<CaseRows> cases{one.rows};
+    const auto ratio = ratio_of(headline, cases);
     ASSERT_TRUE(ratio);
     EXPECT_EQ(ratio->cheap->setting, &slow);
     EXPECT_EQ(ratio->dear->setting, &finer);
     EXPECT_DOUBLE_EQ(ratio->times, 225.0);
     headline.error = 0.03;
-    EXPECT_FALSE(ratio_of(headline, {one.rows}));
+    EXPECT_FALSE(ratio_of(headline, cases));
     headline = {"other", "sdem", "knob", 0.1, 200.0};
-    EXPECT_FALSE(ratio_of(headline, {one.rows}));
+    EXPECT_FALSE(ratio_of(headline, cases));
 }
 
 }  // namespace
