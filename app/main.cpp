@@ -42,6 +42,7 @@ struct Arguments {
     std::string plan;
     std::vector<std::string> cases;
     int repeats = 3;
+    double repeat_below = 60.0;
     bool quick = false;
     int threads = 0;
     bool calibrate = false;
@@ -117,6 +118,7 @@ int bench_error_command(const Arguments& a) {
                                .cases = a.cases,
                                .methods = a.compared,
                                .repeats = a.repeats,
+                               .repeat_below = a.repeat_below,
                                .folder = a.out,
                                .resume = a.resume,
                                .force = a.force});
@@ -173,16 +175,30 @@ int info_command(const Arguments& a) {
     return 0;
 }
 
-/// Drawing lives in an executable of its own; its arguments are passed on untouched.
+/// Another program takes this one's place, with arguments passed on untouched.
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(program.c_str(), argv.data());
+    throw OutputError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
+}
+
+/// Drawing lives in an executable of its own.
 int render_command(const Arguments& a) {
     const std::string program = find_renderer().string();
     if (program.empty())
         throw OutputError("softgrain-render is not beside this program; build or install it");
-    std::vector<char*> argv{const_cast<char*>(program.c_str())};
-    for (const std::string& word : a.rest) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    ::execv(program.c_str(), argv.data());
-    throw OutputError(fmt::format("{}: cannot start the renderer: {}", program, std::strerror(errno)));
+    become(program, a.rest);
+}
+
+/// Builds the program anew, with and without features, hence a script of the source tree.
+int bench_skip_command(const Arguments& a) {
+    const std::string script = "bench/skip/skip.py";
+    if (!std::filesystem::exists(script))
+        throw InputError(fmt::format(
+            "{}: not here; bench skip builds softgrain anew, start it in its source tree", script));
+    become(script, a.rest);
 }
 
 void scenario_options(CLI::App& command, Arguments& a) {
@@ -230,6 +246,9 @@ void bench_error_options(CLI::App& command, Arguments& a) {
     command.add_option("--method", a.compared, "only these methods, comma separated")->delimiter(',');
     command.add_option("--repeats", a.repeats, "of every run; CPU times are medians")
         ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command.add_option("--repeat-below", a.repeat_below, "[s] runs of more CPU time are not repeated")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command.add_option("--out", a.out, "folder for the results")->default_val("results/bench_error");
     command.add_flag("--resume", a.resume, "keep the runs in the folder that are finished");
@@ -304,6 +323,16 @@ int command_line(int argc, char** argv) {
     bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
     bench_error_app->callback([&chosen] { chosen = bench_error_command; });
     bench_error_options(*bench_error_app, a);
+
+    CLI::App* skip = bench->add_subcommand(
+        "skip", "instructions that unused and used options cost, and that skipping saves (needs valgrind)");
+    skip->footer("Example:\n  softgrain bench skip unused saved");
+    skip->prefix_command();
+    skip->set_help_flag();
+    skip->callback([&a, skip, &chosen] {
+        a.rest = skip->remaining();
+        chosen = bench_skip_command;
+    });
 
     add("list", "methods, history columns and scenario keys", list_command, "list --keys")
         ->add_flag("--keys", a.keys, "every key of a scenario file with type, default, range and meaning");

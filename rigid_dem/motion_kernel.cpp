@@ -16,7 +16,7 @@ SOFTGRAIN_INLINE double damped(double force, double velocity, double share, doub
     return left;
 }
 
-template <bool rotates, bool nonviscous>
+template <bool rotates, bool nonviscous, bool flows>
 SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
     for (int first = 0; first < block.grains; first += lanes) {
         GrainRecord* const grain = block.grain + first;
@@ -26,9 +26,12 @@ SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow
         for (int l = 0; l < count; ++l) {
             GrainRecord& g = grain[l];
             double fx = force[l].fx, fy = force[l].fy, work = 0.0;
-            const double dx = g.x - flow.origin_x, dy = g.y - flow.origin_y;
-            const double flow_vx = flow.origin_vx + flow.xx * dx + flow.xy * dy;
-            const double flow_vy = flow.origin_vy + flow.yy * dy;
+            double flow_vx = 0.0, flow_vy = 0.0;
+            if constexpr (flows) {
+                const double dx = g.x - flow.origin_x, dy = g.y - flow.origin_y;
+                flow_vx = flow.origin_vx + flow.xx * dx + flow.xy * dy;
+                flow_vy = flow.origin_vy + flow.yy * dy;
+            }
             if constexpr (nonviscous) {
                 fx = damped(fx, g.vx - flow_vx, block.nonviscous_damping, dt, g.inverse_mass, work);
                 fy = damped(fy, g.vy - flow_vy, block.nonviscous_damping, dt, g.inverse_mass, work);
@@ -55,17 +58,24 @@ SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow
 }
 
 SOFTGRAIN_CLONES void move_only(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<false, false>(block, dt, flow, sums);
+    move<false, false, false>(block, dt, flow, sums);
 }
 SOFTGRAIN_CLONES void move_and_turn(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<true, false>(block, dt, flow, sums);
+    move<true, false, false>(block, dt, flow, sums);
 }
 SOFTGRAIN_CLONES void move_damped(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<false, true>(block, dt, flow, sums);
+    move<false, true, false>(block, dt, flow, sums);
 }
 SOFTGRAIN_CLONES void move_and_turn_damped(const MotionBlock& block, double dt, const Flow& flow,
                                            MotionSums& sums) {
-    move<true, true>(block, dt, flow, sums);
+    move<true, true, false>(block, dt, flow, sums);
+}
+SOFTGRAIN_CLONES void move_in_flow(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
+    move<false, true, true>(block, dt, flow, sums);
+}
+SOFTGRAIN_CLONES void move_and_turn_in_flow(const MotionBlock& block, double dt, const Flow& flow,
+                                            MotionSums& sums) {
+    move<true, true, true>(block, dt, flow, sums);
 }
 
 SOFTGRAIN_CLONES double displacement2(const GrainRecord* grain, const double* before, int grains,
@@ -110,7 +120,9 @@ SOFTGRAIN_CLONES void kinetic_tensor(const GrainRecord* grain, const ForceSum* f
 
 void kick_and_drift(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
     const bool nonviscous = block.nonviscous_damping > 0.0;
-    if (block.rotates)
+    if (block.flows)
+        (block.rotates ? move_and_turn_in_flow : move_in_flow)(block, dt, flow, sums);
+    else if (block.rotates)
         (nonviscous ? move_and_turn_damped : move_and_turn)(block, dt, flow, sums);
     else
         (nonviscous ? move_damped : move_only)(block, dt, flow, sums);

@@ -25,6 +25,7 @@ struct MotionBlock {
     int grains;
     double nonviscous_damping;  ///< lambda_d of Cundall
     bool rotates;
+    bool flows;  ///< a periodic cell; without it the flow is not looked at
 };
 
 /// Velocities by the forces, then positions by the velocities. Non-viscous damping takes the share lambda_d

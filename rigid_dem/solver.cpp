@@ -136,13 +136,21 @@ std::size_t RigidDem::mover_blocks() const {
 MotionBlock RigidDem::movers(std::size_t b) {
     if (!clumps_) {
         const Block& block = blocks_[b];
-        return {&record_[block.first_record], &force_[block.first_record], static_cast<int>(block.grains),
-                law_.nonviscous_damping, law_.rotates};
+        return {&record_[block.first_record],
+                &force_[block.first_record],
+                static_cast<int>(block.grains),
+                law_.nonviscous_damping,
+                law_.rotates,
+                box_.periodic};
     }
     const std::size_t first = b * grains_per_block,
                       count = std::min(grains_per_block, clumps_->size() - first);
-    return {&clumps_->bodies()[first], &clumps_->forces()[first], static_cast<int>(count),
-            law_.nonviscous_damping, law_.rotates};
+    return {&clumps_->bodies()[first],
+            &clumps_->forces()[first],
+            static_cast<int>(count),
+            law_.nonviscous_damping,
+            law_.rotates,
+            box_.periodic};
 }
 
 void RigidDem::move(const WallMotion& walls, double dt) {

@@ -73,15 +73,19 @@ struct GrainSums {
     double caps = 0.0;  ///< sum S [m^2]
 };
 
-/// Sums of grain g, in the order of each_side_of.
-inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
+template <bool sliding>
+GrainSums sum_sides(const ForceSource& from, std::size_t g) {
     GrainSums s;
     from.contacts.each_side_of(g, [&](const Side& side) {
         const Contact& c = side.contact;
         const double q = c.q, dashpot = damping_without_pull(q, c.q_damping);
-        const double normal = side.sign() * (q + dashpot), along = side.sign() * from.tangential(side);
-        const double damping = side.sign() * dashpot;
-        const double fx = normal * c.chord_x - along * c.chord_y, fy = normal * c.chord_y + along * c.chord_x;
+        const double normal = side.sign() * (q + dashpot), damping = side.sign() * dashpot;
+        double fx = normal * c.chord_x, fy = normal * c.chord_y;
+        if constexpr (sliding) {
+            const double along = side.sign() * from.tangential(side);
+            fx -= along * c.chord_y;
+            fy += along * c.chord_x;
+        }
         const double dx = damping * c.chord_x, dy = damping * c.chord_y;
         s.fx += fx;
         s.fy += fy;
@@ -99,6 +103,11 @@ inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
         s.caps += side.cap();
     });
     return s;
+}
+
+/// Sums of grain g, in the order of each_side_of.
+inline GrainSums sum_contacts(const ForceSource& from, std::size_t g) {
+    return from.sliding ? sum_sides<true>(from, g) : sum_sides<false>(from, g);
 }
 
 /// sum psi / pi: share of grain g's outline that contacts cover, for laws that use it.

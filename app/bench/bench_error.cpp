@@ -50,8 +50,10 @@ int bench_error(const ErrorRequest& request) {
         if (!one.truth)
             fmt::print("{}: left out, its reference {} is not there\n", one.name, one.reference.string());
 
-    const auto measured =
-        run_plan(plan, {.folder = request.folder, .repeats = request.repeats, .resume = request.resume});
+    const auto measured = run_plan(plan, {.folder = request.folder,
+                                          .repeats = request.repeats,
+                                          .repeat_below = request.repeat_below,
+                                          .resume = request.resume});
     if (stop_signal() != 0) {
         fmt::print(stderr, "stopped by a signal; go on with --resume\n");
         return 128 + stop_signal();

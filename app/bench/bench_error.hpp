@@ -11,6 +11,7 @@ struct ErrorRequest {
     std::vector<std::string> cases;    ///< names; empty for all
     std::vector<std::string> methods;  ///< empty for all
     int repeats = 3;
+    double repeat_below = 60.0;  ///< CPU time above which a run is not repeated [s]
     std::filesystem::path folder;
     bool resume = false;
     bool force = false;  ///< replace results that are there

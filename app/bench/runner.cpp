@@ -125,6 +125,7 @@ std::vector<Measurement> run_plan(const Plan& plan, const RunnerOptions& options
             if (stop_signal() != 0) break;
             ++number;
             Measurement& measurement = job.measurement;
+            if (repeat > 1 && measurement.repeats.front().cpu_time > options.repeat_below) continue;
             const fs::path folder = job.folder / fmt::format("{}", repeat);
             const auto earlier = options.resume ? finished_run(folder, job) : std::nullopt;
             measurement.repeats.push_back(earlier ? *earlier : run_once(job, folder));

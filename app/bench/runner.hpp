@@ -14,7 +14,8 @@ namespace softgrain::bench {
 struct RunnerOptions {
     std::filesystem::path folder;  ///< runs go to folder/runs/CASE/SETTING/REPEAT
     int repeats = 3;
-    bool resume = false;  ///< keep runs that are finished and of the same scenario
+    double repeat_below = 60.0;  ///< CPU time above which a run is not repeated [s]
+    bool resume = false;         ///< keep runs that are finished and of the same scenario
 };
 
 /// A setting on a case.

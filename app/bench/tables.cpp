@@ -157,21 +157,26 @@ std::string case_section(const CaseRows& one) {
 std::string measured_on(const std::vector<CaseRows>& cases) {
     std::vector<double> spread;
     std::size_t repeats = 0;
+    bool all_repeated = true;
     const RunReport* first = nullptr;
     for (const CaseRows& one : cases)
         for (const Row& row : one.rows) {
             repeats = std::max(repeats, row.repeats);
             if (row.report.steps == 0 || row.cost.cpu_min <= 0.0) continue;
+            if (row.repeats < repeats) {
+                all_repeated = false;
+                continue;
+            }
             if (!first) first = &row.report;
             spread.push_back(row.cost.cpu_max / row.cost.cpu_min);
         }
     if (!first) return "No run made a step.\n";
     return fmt::format(
         "{}, {}; softgrain {} ({}), {}. Each run is a process of its own with one thread; CPU times are "
-        "medians of {}, interleaved; the largest over the least is {:.2f} (median over the settings), at "
+        "medians of {}, interleaved{}; the largest over the least is {:.2f} (median over the settings), at "
         "most {:.2f}.\n",
-        first->processor, first->finished, first->version, first->commit, compiler, repeats, median(spread),
-        *std::ranges::max_element(spread));
+        first->processor, first->finished, first->version, first->commit, compiler, repeats,
+        all_repeated ? "" : " (long runs: once)", median(spread), *std::ranges::max_element(spread));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@ instructions of one thread (bench/guard/instructions.py).
                   tree for that build and taken back after it; the tree must have no changes of its own.
         used      a step of the same scene with the feature on
         saved     whole runs with and without scene-level skipping
+        written   what is observed and written at samples, by `softgrain run`, against a step
 """
 import argparse
 import csv
@@ -14,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -22,7 +24,7 @@ from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "guard"))
-from instructions import ROOT, STEPS, WHOLE_LOOP, Count, build, count, made_with  # noqa: E402
+from instructions import ROOT, STEPS, WHOLE_LOOP, Count, build, count, instructions, made_with  # noqa: E402
 
 METHODS = ("sdem", "rigid_dem", "bpm", "mpm")
 PROGRAMS = ROOT / "build/count/programs"
@@ -84,6 +86,17 @@ SAVINGS = [
     Saving("rigid_dem", "coarse rate before jamming", "loose.toml", ["loading.0.inertial_number=1e-3"]),
     Saving("sdem", "early stop at equilibrium", "rest.toml", [], ["loading.1.until_unbalanced=0.01"]),
     Saving("rigid_dem", "early stop at equilibrium", "rest.toml", [], ["loading.1.until_unbalanced=0.01"]),
+]
+
+# What is called at samples: the function, and what it is called for.
+WRITTEN = [
+    ("row of the history, observed", "softgrain::TimeLoop::sample(*)", "row"),
+    ("row of the history, written", "softgrain::HistoryWriter::observe(*)", "row"),
+    ("grains and outlines of a frame", "softgrain::GrainWriter::observe(*)", "frame"),
+    ("contacts of a frame", "softgrain::ContactWriter::observe(*)", "frame"),
+    ("walls of a frame", "softgrain::WallWriter::observe(*)", "frame"),
+    ("parts of a frame", "softgrain::PartWriter::observe(*)", "frame"),
+    ("checkpoint", "softgrain::write_run_file(*)", "checkpoint"),
 ]
 
 THREADS = re.compile(r"GOMP_|gomp_|omp_get_|ThreadChoice|clock_gettime")
@@ -155,6 +168,20 @@ def saved(saving: Saving) -> list[list[object]]:
              without.steps, with_it.steps, f"{with_it.mean_stress / without.mean_stress - 1.0:.1e}"]]
 
 
+def written(what: str, function: str, of: str, method: str) -> list[list[object]]:
+    """Where a row is observed, without the writers that are called with it."""
+    with tempfile.TemporaryDirectory() as folder:
+        run = [str(build("softgrain")), "run", str(HERE / f"{method}.toml"), "--method", method, "--threads", "1", "--quiet",
+               "--set", "sampling.parts=true", "--out", folder, "--force"]
+        writers = [f for _, f, _ in WRITTEN if f.endswith("::observe(*)")]
+        spent, _ = instructions(run, [function, *(writers if function == "softgrain::TimeLoop::sample(*)" else [])])
+        calls = {"row": len((Path(folder) / "history.csv").read_text().splitlines()) - 1,
+                 "frame": (Path(folder) / "grains.pvd").read_text().count("<DataSet"),
+                 "checkpoint": 1}[of]
+    each = spent / calls
+    return [[what, method, round(each), f"{each / plain(method).each_step():.2f}"]]
+
+
 def table_of(name: str) -> tuple[list[str], list[Callable[[], list[list[object]]]]]:
     """The heads of a table's columns, and what counts its rows. Builds the programs, one after the other."""
     patches = [p for p in sorted((HERE / "without").glob("*.patch")) if p.stem.startswith("saved_") == (name == "saved")]
@@ -165,6 +192,10 @@ def table_of(name: str) -> tuple[list[str], list[Callable[[], list[list[object]]
                 [lambda p=p: unused(p) for p in patches] + [lambda m=m: unused_threads(m) for m in METHODS])
     if name == "used":
         return ["feature", "method", "plain", "used", "ratio"], [lambda f=f: used(f) for f in FEATURES]
+    if name == "written":
+        build("softgrain")
+        return (["what", "method", "instructions", "steps"],
+                [lambda w=w, m=m: written(*w, m) for w in WRITTEN for m in (["bpm"] if "parts" in w[0] else METHODS)])
     return (["what", "method", "scene", "without", "with", "ratio", "steps_without", "steps_with", "stress_difference"],
             [lambda s=s: saved(s) for s in SAVINGS])
 
@@ -179,7 +210,7 @@ def write(name: str) -> None:
 
 
 def main() -> None:
-    tables = ("unused", "used", "saved")
+    tables = ("unused", "used", "saved", "written")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", nargs="*", choices=[*tables, []], default=[])
     for name in parser.parse_args().table or tables:
