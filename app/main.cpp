@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "app/bench/bench_error.hpp"
+#include "app/bench/commands.hpp"
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
 #include "app/methods.hpp"
@@ -323,6 +324,8 @@ int command_line(int argc, char** argv) {
     bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
     bench_error_app->callback([&chosen] { chosen = bench_error_command; });
     bench_error_options(*bench_error_app, a);
+    std::function<int()> chosen_bench;
+    bench::add_commands(*bench, chosen_bench);
 
     CLI::App* skip = bench->add_subcommand(
         "skip", "instructions that unused and used options cost, and that skipping saves (needs valgrind)");
@@ -354,7 +357,7 @@ int command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    return chosen(a);
+    return chosen_bench ? chosen_bench() : chosen(a);
 }
 
 }  // namespace

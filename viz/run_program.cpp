@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 extern char** environ;
 
@@ -32,7 +34,8 @@ std::string read_to_end(int descriptor) {
 
 }  // namespace
 
-std::optional<std::string> run_program(const std::vector<std::string>& arguments, ChildOutput output) {
+std::optional<std::string> run_program(const std::vector<std::string>& arguments, ChildOutput output,
+                                       std::string* messages) {
     std::array<int, 2> pipe_ends{};
     if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
         return fmt::format("cannot make a pipe: {}", std::strerror(errno));
@@ -47,7 +50,8 @@ std::optional<std::string> run_program(const std::vector<std::string>& arguments
     const int spawned = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(pipe_ends[1]);
-    const std::string messages = spawned == 0 ? read_to_end(pipe_ends[0]) : std::string();
+    const std::string said = spawned == 0 ? read_to_end(pipe_ends[0]) : std::string();
+    if (messages) *messages = said;
     ::close(pipe_ends[0]);
     if (spawned != 0) return fmt::format("cannot start {}: {}", arguments[0], std::strerror(spawned));
     int status = 0;
@@ -57,7 +61,17 @@ std::optional<std::string> run_program(const std::vector<std::string>& arguments
     const std::string how = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
                                                 : fmt::format("exit code {}", WEXITSTATUS(status));
     const std::string name = std::filesystem::path(arguments[0]).filename().string();
-    return messages.empty() ? fmt::format("{}: {}", name, how) : messages;
+    return said.empty() ? fmt::format("{}: {}", name, how) : said;
+}
+
+std::filesystem::path find_on_path(std::string_view name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::filesystem::path program = std::filesystem::path(folder) / name;
+        if (::access(program.c_str(), X_OK) == 0) return program;
+    }
+    return {};
 }
 
 }  // namespace softgrain

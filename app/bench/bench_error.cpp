@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "app/bench/plots.hpp"
+#include "app/bench/results_folder.hpp"
 #include "app/bench/tables.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
-#include "viz/client.hpp"
 
 namespace softgrain::bench {
 namespace {
@@ -65,11 +65,8 @@ int bench_error(const ErrorRequest& request) {
     write_file_atomically(request.folder / "error.md", tables);
     for (const CaseRows& one : cases)
         for (std::size_t q = 0; q < quantity_count; ++q)
-            if (const auto plot = error_plot(one, q)) {
-                const std::string name = fmt::format("{}_{}.svg", one.of->name, quantity_names[q].key);
-                if (const auto failed = render_plot(*plot, request.folder / name))
-                    throw OutputError(fmt::format("{}: {}", name, *failed));
-            }
+            if (const auto plot = error_plot(one, q))
+                draw(*plot, request.folder, fmt::format("{}_{}", one.of->name, quantity_names[q].key));
     fmt::print("\n{}\nResults in {}\n", tables, request.folder.string());
     return 0;
 }

@@ -4,23 +4,15 @@
 
 #include <algorithm>
 
-#include "app/methods.hpp"
+#include "app/bench/plan_reader.hpp"
 #include "common/errors.hpp"
-#include "common/io/scenario_document.hpp"
-#include "common/io/scenario_schema.hpp"
-#include "common/io/scenario_table.hpp"
 #include "common/observables/observable.hpp"
 
 namespace softgrain::bench {
 namespace {
 
 using scenario_io::CheckedTable;
-using scenario_io::Node;
 using Keys = std::vector<KeySpec>;
-
-KeySpec text_key(std::string_view name) {
-    return {name, KeyType::text, Value{}, "", ""};
-}
 
 /// The keys of a quantity: its columns, the reference's error and what it is relative to.
 struct QuantityKeys {
@@ -60,23 +52,6 @@ const Keys& headline_keys() {
     return keys;
 }
 
-std::string trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(' ');
-    if (first == std::string_view::npos) return {};
-    return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
-}
-
-/// The words between commas.
-std::vector<std::string> parts(std::string_view text) {
-    std::vector<std::string> all;
-    while (!text.empty()) {
-        const auto comma = std::min(text.find(','), text.size());
-        if (std::string word = trimmed(text.substr(0, comma)); !word.empty()) all.push_back(std::move(word));
-        text.remove_prefix(std::min(comma + 1, text.size()));
-    }
-    return all;
-}
-
 /// All columns that a run writes, without rows.
 const History& run_columns() {
     static const History none = [] {
@@ -87,17 +62,14 @@ const History& run_columns() {
     return none;
 }
 
-class Reader {
+class Reader : PlanReader {
   public:
-    explicit Reader(const std::filesystem::path& path)
-        : path_(path),
-          document_(scenario_io::parse_document(scenario_io::read_document(path, "plan"), path.string())),
-          errors_(path.string()) {}
+    using PlanReader::PlanReader;
 
     Plan read() {
         Plan plan;
         plan.source = path_;
-        for (const Node& child : document_.children) known(child, {"case", "knob", "headline"});
+        known_tables({"case", "knob", "headline"});
         for (const CheckedTable& table :
              tables("case", case_keys(), {"name", "scenario", "reference", "over", "stress"}))
             plan.cases.push_back(case_of(table, plan.cases));
@@ -106,60 +78,13 @@ class Reader {
         for (const CheckedTable& table :
              tables("headline", headline_keys(), {"case", "method", "against", "error", "times"}))
             add_headline(table, plan);
-        if (document_.find("case") == nullptr)
-            errors_.add({}, "case", "is missing: write at least one [[case]]");
-        if (document_.find("knob") == nullptr)
-            errors_.add({}, "knob", "is missing: write at least one [[knob]]");
+        needed("case");
+        needed("knob");
         errors_.throw_if_any();
         return plan;
     }
 
   private:
-    void known(const Node& node, const std::vector<std::string_view>& words) {
-        if (std::ranges::find(words, node.key) != words.end()) return;
-        const std::string_view meant = scenario_io::suggest(node.key, words);
-        errors_.add(node.key_place, "",
-                    fmt::format("unknown key '{}', {}", scenario_io::shown(node.key),
-                                meant.empty() ? "known are " + scenario_io::join(words)
-                                              : fmt::format("did you mean '{}'?", meant)));
-    }
-
-    /// The sound ones of [[name]].
-    std::vector<CheckedTable> tables(std::string_view name, const Keys& keys,
-                                     std::initializer_list<std::string_view> needed) {
-        std::vector<CheckedTable> sound;
-        const Node* all = document_.find(name);
-        if (all == nullptr) return sound;
-        if (all->kind != Node::Kind::array) {
-            errors_.add(all->place, name, fmt::format("must be tables [[{}]], got {}", name, describe(*all)));
-            return sound;
-        }
-        std::vector<std::string_view> words;
-        for (const KeySpec& key : keys) words.push_back(key.name);
-        for (std::size_t k = 0; k < all->children.size(); ++k) {
-            const Node& node = all->children[k];
-            const std::size_t before = errors_.size();
-            for (const Node& child : node.children) known(child, words);
-            CheckedTable table = check_table(&node, fmt::format("{}.{}", name, k), keys, errors_);
-            for (const std::string_view key : needed)
-                if (!table.has(key)) errors_.add(node.place, table.full(key), "is missing");
-            if (errors_.size() == before) sound.push_back(std::move(table));
-        }
-        return sound;
-    }
-
-    static std::string text(const CheckedTable& table, std::string_view key) {
-        return table.has(key) ? table.settings.text(key) : std::string();
-    }
-
-    void add_error(const CheckedTable& table, std::string_view key, std::string_view what) {
-        errors_.add(table.place_of(key), table.full(key), what);
-    }
-
-    std::filesystem::path file(const CheckedTable& table, std::string_view key) const {
-        return (path_.parent_path() / table.settings.text(key)).lexically_normal();
-    }
-
     /// "a = b" is a of a run and b of the reference, "a" the same of both.
     std::pair<Expression, Expression> of_both(const CheckedTable& table, std::string_view key,
                                               const std::optional<History>& truth) {
@@ -217,15 +142,6 @@ class Reader {
         return one;
     }
 
-    bool is_method(const CheckedTable& table) {
-        const auto names = method_names();
-        const std::string& name = table.settings.text("method");
-        if (std::ranges::find(names, name) != names.end()) return true;
-        add_error(table, "method",
-                  fmt::format("must be one of {}, got \"{}\"", scenario_io::join(names), name));
-        return false;
-    }
-
     bool is_case(const CheckedTable& table, std::string_view key, const std::string& name, const Plan& plan) {
         if (std::ranges::find(plan.cases, name, &Case::name) != plan.cases.end()) return true;
         add_error(table, key, fmt::format("names no sound case: \"{}\"", name));
@@ -279,16 +195,6 @@ class Reader {
             add_error(table, "against", fmt::format("names no knob: \"{}\"", one.against));
         plan.headlines.push_back(one);
     }
-
-    static std::vector<std::string_view> method_names() {
-        std::vector<std::string_view> names;
-        for (const Method& m : methods()) names.push_back(m.name);
-        return names;
-    }
-
-    const std::filesystem::path& path_;
-    Node document_;
-    scenario_io::ErrorList errors_;
 };
 
 }  // namespace

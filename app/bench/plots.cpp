@@ -12,17 +12,10 @@
 namespace softgrain::bench {
 namespace {
 
-constexpr int black = 4;  ///< in the palette
 constexpr std::array markers{MarkerStyle::circle, MarkerStyle::square, MarkerStyle::diamond,
                              MarkerStyle::plus};
 constexpr double least_error = 1e-4;  ///< that is drawn as it is
 constexpr double most_error = 3.0;
-
-/// A method's colour is the same in all plots: its place in the table of methods.
-int colour_of(const std::string& method) {
-    const auto all = methods();
-    return static_cast<int>(std::ranges::find(all, method, &Method::name) - all.begin());
-}
 
 struct Bounds {
     double low, high;
@@ -72,6 +65,11 @@ std::vector<const Setting*> knobs_of(const CaseRows& one) {
 }
 
 }  // namespace
+
+int colour_of(const std::string& method) {
+    const auto all = methods();
+    return static_cast<int>(std::ranges::find(all, method, &Method::name) - all.begin());
+}
 
 std::optional<PlotSpec> error_plot(const CaseRows& one, std::size_t quantity) {
     PlotSpec plot;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "app/bench/choice.hpp"
+#include "app/bench/words.hpp"
 #include "app/markdown_table.hpp"
 #include "app/methods.hpp"
 #include "app/report/words.hpp"
@@ -19,19 +19,8 @@ using Table = std::vector<std::vector<std::string>>;
 constexpr std::array targets{0.20, 0.10, 0.05, 0.02};  ///< errors of stress
 constexpr const char* none = "-";
 
-std::string quoted(std::string text) {
-    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-    return "\"" + text + "\"";
-}
-
 std::string number(const std::optional<double>& value) {
     return value ? fmt::format("{:.6g}", *value) : "";
-}
-
-/// Two digits, as little is known of a CPU time.
-std::string times(double ratio) {
-    const double rounding = std::pow(10.0, std::floor(std::log10(ratio)) - 1.0);
-    return fmt::format("{:g}", std::round(ratio / rounding) * rounding);
 }
 
 std::string error_cell(const CaseRows& one, const Row& row, std::size_t quantity) {
@@ -58,14 +47,14 @@ std::string headline(const Headline& one, const std::vector<CaseRows>& cases) {
     if (!ratio)
         return fmt::format(
             "- {}: no {} within {} of stress, or no \"{}\", was measured; asked is {} times cheaper.\n",
-            one.case_name, one.method, report::whole_percent(one.error), one.against, times(one.times));
+            one.case_name, one.method, report::whole_percent(one.error), one.against, two_digits(one.times));
     return fmt::format(
         "- {}: {} ({}) is **{} times cheaper** than {} ({}), {} and {} of CPU time, at {} error of stress; "
         "asked is {} times at {}: {}.\n",
-        one.case_name, one.method, ratio->cheap->setting->name(), times(ratio->times),
+        one.case_name, one.method, ratio->cheap->setting->name(), two_digits(ratio->times),
         ratio->dear->setting->method, ratio->dear->setting->name(), report::seconds(ratio->cheap->cost.cpu),
         report::seconds(ratio->dear->cost.cpu), report::percent(*ratio->cheap->error[stress]),
-        times(one.times), report::whole_percent(one.error),
+        two_digits(one.times), report::whole_percent(one.error),
         ratio->times >= one.times ? "reached" : "not reached");
 }
 
@@ -106,7 +95,7 @@ std::string cheapest_table(const CaseRows& one) {
         for (const std::string& name : names) {
             const Row* own = cheapest(one, target, name);
             table.back().push_back(
-                own ? fmt::format("{} ({})", times(own->cost.cpu / best->cost.cpu), own->setting->name())
+                own ? fmt::format("{} ({})", two_digits(own->cost.cpu / best->cost.cpu), own->setting->name())
                     : none);
         }
     }
@@ -128,7 +117,7 @@ std::string all_settings(const CaseRows& one) {
         const bool ran = row.report.steps > 0, is_best = std::ranges::find(front, k) != front.end();
         table.push_back(
             {fmt::format("{}{}, {}", is_best ? "* " : "", row.setting->method, row.setting->name()),
-             ran && *least > 0.0 ? times(row.cost.cpu / *least) : none,
+             ran && *least > 0.0 ? two_digits(row.cost.cpu / *least) : none,
              ran ? report::seconds(row.cost.cpu) : none,
              ran ? fmt::format("{:.0f} MB", row.cost.memory / 1e6) : none,
              report::whole_percent(row.coverage)});

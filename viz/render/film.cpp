@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -59,13 +58,7 @@ class OutliveInterrupt {
 }  // namespace
 
 fs::path find_ffmpeg() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path program = fs::path(folder) / "ffmpeg";
-        if (::access(program.c_str(), X_OK) == 0) return program;
-    }
-    return {};
+    return find_on_path("ffmpeg");
 }
 
 std::string film_command(const FilmFrames& frames, const fs::path& out) {

@@ -1,0 +1,50 @@
+#include "app/bench/scaling/tiles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "common/packing/make_packing.hpp"
+
+namespace softgrain::bench {
+
+int copies_of(int grains) {
+    for (int side = 1; side * side <= grains; ++side)
+        if (grains % (side * side) == 0 && grains / (side * side) <= largest_cell) return side;
+    throw InputError(fmt::format(
+        "{} grains: must be at most {} times the square of a whole number, as copies of a cell are made",
+        grains, largest_cell));
+}
+
+Packing tiled_between_walls(const Packing& cell, int side) {
+    Packing many;
+    Box& box = many.box;
+    box.position = {cell.box.position[0], cell.box.position[0], cell.box.position[2], cell.box.position[2]};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            for (std::size_t i = 0; i < cell.size(); ++i) {
+                const Vec2 center = cell.center[i] + cell.box.image(x, y);
+                const double r = cell.radius[i];
+                for (int axis = 0; axis < 2; ++axis) {
+                    double& low = box.position[static_cast<std::size_t>(2 * axis)];
+                    double& high = box.position[static_cast<std::size_t>(2 * axis + 1)];
+                    low = std::min(low, center[axis] - r);
+                    high = std::max(high, center[axis] + r);
+                }
+                many.center.push_back(center);
+                many.radius.push_back(r);
+            }
+    return many;
+}
+
+Packing tiled_packing(const Scenario& scenario, int grains) {
+    const int side = copies_of(grains);
+    Scenario cell = scenario;
+    cell.packing.count = grains / (side * side);
+    cell.box = {};
+    cell.box.periodic = true;
+    return tiled_between_walls(make_packing(cell), side);
+}
+
+}  // namespace softgrain::bench

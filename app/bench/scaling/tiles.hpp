@@ -1,0 +1,21 @@
+#pragma once
+// Packings of many grains: a jammed periodic cell, copied side by side, between walls.
+#include "common/packing/packing.hpp"
+#include "common/scenario.hpp"
+
+namespace softgrain::bench {
+
+/// Most grains of the cell that is copied.
+inline constexpr int largest_cell = 1000;
+
+/// Copies on a side: the fewest that leave at most `largest_cell` grains, a whole number, in the cell. Throws
+/// InputError if there is no such number.
+int copies_of(int grains);
+
+/// `side` x `side` copies of a periodic cell without tilt, in the least box with walls around them.
+Packing tiled_between_walls(const Packing& cell, int side);
+
+/// As many grains: cells jammed by the scenario's [packing] and seed, copied.
+Packing tiled_packing(const Scenario& scenario, int grains);
+
+}  // namespace softgrain::bench
