@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "app/bench/peers/bench_peers.hpp"
 #include "app/bench/scaling/bench_scaling.hpp"
 #include "app/bench/scaling/steps.hpp"
 #include "app/process.hpp"
@@ -61,6 +62,7 @@ void add_scaling(CLI::App& bench, std::function<int()>& chosen) {
     command.add_option("--repeats", request->repeats, "of every run; times are medians")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
+    command.add_flag("--packings-only", request->packings_only, "make the packings and stop");
     command.add_option("--out", request->folder, "folder for the results")
         ->default_val("results/bench_scaling");
     command.add_flag("--force", request->force, "replace results that are in the folder");
@@ -74,11 +76,36 @@ void add_scaling(CLI::App& bench, std::function<int()>& chosen) {
     });
 }
 
+void add_peers(CLI::App& bench, std::function<int()>& chosen) {
+    CLI::App& command = add(bench, "peers", "other programs beside ours, as far as they are installed",
+                            "--peer LAMMPS,Yade --out results/bench_peers");
+    const auto request = std::make_shared<PeersRequest>();
+    const auto quick = std::make_shared<bool>(false);
+    command.add_option("--plan", request->plan, "what to run (TOML); bench/peers/plan.toml if not given");
+    command.add_flag("--quick", *quick, "bench/peers/quick.toml instead, a few seconds");
+    command.add_option("--peer", request->peers, "only these of the plan, comma separated")->delimiter(',');
+    command.add_option("--repeats", request->repeats, "of every run; times and ratios are medians")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command.add_option("--out", request->folder, "folder for the results")
+        ->default_val("results/bench_peers");
+    command.add_flag("--force", request->force, "replace results that are in the folder");
+    command.callback([&chosen, request, quick] {
+        chosen = [request, quick] {
+            if (request->plan.empty())
+                request->plan = *quick ? "bench/peers/quick.toml" : "bench/peers/plan.toml";
+            install_stop_signals();
+            return bench_peers(*request);
+        };
+    });
+}
+
 }  // namespace
 
 void add_commands(CLI::App& bench, std::function<int()>& chosen) {
     add_steps(bench, chosen);
     add_scaling(bench, chosen);
+    add_peers(bench, chosen);
 }
 
 }  // namespace softgrain::bench

@@ -1,5 +1,6 @@
 // What the two contact engines of BPM cost at equal penetration: sweeps over their knobs, process CPU time of
-// one thread, the engines in turn. Usage: bpm_engines [file.csv]
+// one thread, the engines in turn. Usage: bpm_engines [file.csv], or bpm_engines --pair for one setting of
+// each engine, with about the same penetration, as CSV.
 #include <fmt/format.h>
 #include <fmt/os.h>
 #include <omp.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <string_view>
 
 #include "bench/bpm/engine_run.hpp"
 #include "bench/bpm/front.hpp"
@@ -89,9 +91,9 @@ void unless_it_diverges(const Sample& sample, Trial& trial, Action action) {
     }
 }
 
-std::vector<Trial> measure(const Sample& sample) {
+std::vector<Trial> measure(const Sample& sample, const std::vector<Knobs>& settings) {
     std::vector<Trial> trials;
-    for (const Knobs& knobs : sweep()) {
+    for (const Knobs& knobs : settings) {
         Trial trial{knobs, {}};
         unless_it_diverges(sample, trial, [&] {
             for (int seed = 1; seed <= sample.seeds; ++seed)
@@ -148,12 +150,30 @@ void print_ratio(const Sample& sample, const std::vector<Trial>& trials, const c
         slow / fast);
 }
 
+/// One setting of each engine at penetrations near the target, by the sweep (engines.csv).
+void print_pair() {
+    fmt::print("sample,nscd_seconds,box2d_seconds,nscd_penetration,box2d_penetration\n");
+    const Knobs nscd{"nscd", 0.07, 1e-3};
+    for (const Sample& sample : samples()) {
+        const Knobs box2d{"box2d", sample.grains == 1 ? 0.005 : 0.0025, 1e-4, 4, 1};
+        const std::vector<Trial> trials = measure(sample, {nscd, box2d});
+        if (trials.size() != 2) continue;
+        const Summary ours = trials[0].summary(), theirs = trials[1].summary();
+        fmt::print("{},{:.4e},{:.4e},{:.4e},{:.4e}\n", sample.name, ours.cost, theirs.cost, ours.largest,
+                   theirs.largest);
+    }
+}
+
 }  // namespace
 }  // namespace softgrain::bpm
 
 int main(int argc, char** argv) {
     using namespace softgrain::bpm;
     omp_set_num_threads(1);
+    if (argc > 1 && std::string_view(argv[1]) == "--pair") {
+        print_pair();
+        return 0;
+    }
     std::unique_ptr<fmt::ostream> csv;
     if (argc > 1) {
         csv = std::make_unique<fmt::ostream>(fmt::output_file(argv[1]));
@@ -162,7 +182,7 @@ int main(int argc, char** argv) {
             "largest_penetration,mean_penetration,stress,correction_share,steps\n");
     }
     for (const Sample& sample : samples()) {
-        const std::vector<Trial> trials = measure(sample);
+        const std::vector<Trial> trials = measure(sample, sweep());
         print_table(sample, trials, csv.get());
         fmt::print("\n");
         print_ratio(sample, trials, "largest", &Summary::largest);

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "contact_problem.hpp"
-#include "siconos_fc2d.h"
+#include "siconos_input.hpp"
 
 namespace softgrain {
 namespace {
@@ -20,28 +20,6 @@ namespace {
 constexpr double h = SqueezedCloud::h;
 constexpr double reach = 0.5;   // gaps that are looked at [m]
 constexpr double noise = 1e-7;  // impulses / m_e above it are an active contact [m/s]
-
-/// A problem as Siconos takes it.
-class SiconosInput {
-  public:
-    explicit SiconosInput(const ContactProblem& problem)
-        : w_(problem.delassus()), q_(problem.free_local()), friction_(problem.friction) {
-        w_.makeCompressed();
-    }
-    SiconosProblem problem() {
-        return {static_cast<int>(friction_.size()),
-                w_.outerIndexPtr(),
-                w_.innerIndexPtr(),
-                w_.valuePtr(),
-                q_.data(),
-                friction_.data()};
-    }
-
-  private:
-    ContactProblem::Matrix w_;
-    Eigen::VectorXd q_;
-    std::vector<double> friction_;
-};
 
 /// Friction inside groups and between them.
 class Siconos : public testing::TestWithParam<std::pair<double, double>> {};

@@ -41,6 +41,10 @@ int bench_scaling(const ScalingRequest& request) {
     choose(plan, request);
     refuse_to_replace(request.folder / "scaling.csv", request.force);
     make_directories(request.folder);
+    if (request.packings_only) {
+        make_packings(plan, request.folder);
+        return 0;
+    }
     const MachineLimits limits = machine_limits();
     const ScalingResults results = run_scaling(
         plan, {.folder = request.folder, .repeats = request.repeats, .most_seconds = request.most_seconds});

@@ -11,9 +11,10 @@ struct ScalingRequest {
     std::vector<std::string> methods;  ///< subjects by name; empty for all
     int most_grains = 1000000;
     int repeats = 3;
-    double most_seconds = 60.0;  ///< of a run
+    double most_seconds = 180.0;  ///< of a run
     std::filesystem::path folder;
-    bool force = false;  ///< replace results that are there
+    bool force = false;          ///< replace results that are there
+    bool packings_only = false;  ///< make the packings and run nothing
 };
 
 /// Writes scaling.csv, roofline.csv, scaling.md and plots into the folder. Runs that fail or would not fit

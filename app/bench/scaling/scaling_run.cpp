@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Command = std::vector<std::string>;
+
+constexpr double profiled_seconds = 1.0;  // at least, of CPU time
 
 template <class Value>
 double median_of(const std::vector<StepsReport>& repeats, Value value) {
@@ -71,7 +73,7 @@ class Packings {
     std::map<fs::path, Command> made_;
 };
 
-Command command_of(const Subject& subject, int count, int threads, const Command& overrides) {
+Command command_of(const Subject& subject, int threads, int steps, const Command& overrides) {
     Command command{fs::read_symlink("/proc/self/exe").string(),
                     "bench",
                     "steps",
@@ -83,7 +85,7 @@ Command command_of(const Subject& subject, int count, int threads, const Command
                     "--warm-up",
                     fmt::format("{}", subject.warm_up),
                     "--steps",
-                    fmt::format("{}", subject.steps(count))};
+                    fmt::format("{}", steps)};
     Command set = subject.set;
     set.insert(set.end(), overrides.begin(), overrides.end());
     for (const std::string& one : set) command.insert(command.end(), {"--set", one});
@@ -101,9 +103,9 @@ StepsReport report_in(const std::string& said) {
 
 void run_once(ScalingPoint& point, Packings& packings) {
     std::string said;
-    const auto failure = run_program(
-        command_of(*point.of, point.count, point.threads, packings.overrides(*point.of, point.count)),
-        ChildOutput::read, &said);
+    const auto failure = run_program(command_of(*point.of, point.threads, point.of->steps(point.count),
+                                                packings.overrides(*point.of, point.count)),
+                                     ChildOutput::read, &said);
     if (failure)
         point.failure = first_line(*failure);
     else
@@ -120,7 +122,8 @@ const StepsReport* largest_below(const ScalingResults& results, const ScalingPoi
 }
 
 /// The samples of one run that fell into its measured steps; empty, with the reason, if there are none.
-Profile profile_of(const Subject& subject, Packings& packings, const fs::path& folder, std::string& failure) {
+Profile profile_of(const ScalingPoint& measured, Packings& packings, const fs::path& folder,
+                   std::string& failure) {
     const fs::path perf = find_on_path("perf");
     if (perf.empty()) {
         failure = "perf is not installed (Debian: apt install linux-perf)";
@@ -129,8 +132,10 @@ Profile profile_of(const Subject& subject, Packings& packings, const fs::path& f
     const std::string data = (folder / "perf.data").string();
     Command record{perf.string(), "record", "-q",   "-e", "cpu-clock", "-F",
                    "997",         "-k",     "mono", "-o", data,        "--"};
-    const Command run =
-        command_of(subject, subject.profile_count, 1, packings.overrides(subject, subject.profile_count));
+    const Subject& subject = *measured.of;
+    const int steps = std::max(subject.steps(measured.count),
+                               static_cast<int>(profiled_seconds / (measured.cpu() * measured.count)));
+    const Command run = command_of(subject, 1, steps, packings.overrides(subject, measured.count));
     record.insert(record.end(), run.begin(), run.end());
     std::string said;
     if (const auto failed = run_program(record, ChildOutput::read, &said)) {
@@ -207,6 +212,12 @@ Profile read_profile(const std::string& table) {
     return profile;
 }
 
+void make_packings(const ScalingPlan& plan, const fs::path& folder) {
+    Packings packings(folder / "packings");
+    for (const Subject& subject : plan.subjects)
+        for (const int count : subject.counts) packings.overrides(subject, count);
+}
+
 ScalingResults run_scaling(const ScalingPlan& plan, const ScalingOptions& options) {
     ScalingResults results;
     for (const Subject& subject : plan.subjects)
@@ -214,6 +225,8 @@ ScalingResults run_scaling(const ScalingPlan& plan, const ScalingOptions& option
             for (const int threads : subject.threads)
                 results.points.push_back({&subject, count, threads, {}, {}});
     Packings packings(options.folder / "packings");
+    // Grains that are prepared by a method are made once for each number of them.
+    ::setenv("SOFTGRAIN_CACHE", fs::absolute(options.folder / "packings").c_str(), 1);
     for (int repeat = 1; repeat <= options.repeats; ++repeat)
         for (ScalingPoint& point : results.points) {
             if (stop_signal() != 0) return results;
@@ -234,8 +247,9 @@ ScalingResults run_scaling(const ScalingPlan& plan, const ScalingOptions& option
             std::fflush(stdout);
         }
     for (const Subject& subject : plan.subjects) {
-        if (stop_signal() != 0 || !results.find(subject, subject.profile_count, 1)) continue;
-        Profile profile = profile_of(subject, packings, options.folder, results.no_profile);
+        const ScalingPoint* measured = results.find(subject, subject.profile_count, 1);
+        if (stop_signal() != 0 || !measured) continue;
+        Profile profile = profile_of(*measured, packings, options.folder, results.no_profile);
         if (profile.empty()) {
             fmt::print("{}: no profile: {}\n", subject.name, results.no_profile);
             break;

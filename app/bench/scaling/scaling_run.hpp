@@ -40,9 +40,12 @@ struct ScalingResults {
 
 struct ScalingOptions {
     std::filesystem::path folder;  ///< packings go to folder/packings
-    int repeats = 3;
-    double most_seconds = 60.0;  ///< of a run; more is not begun, as far as the smaller runs tell
+    int repeats;
+    double most_seconds;  ///< of a run; more is not begun, as far as the smaller runs tell
 };
+
+/// All packings of a plan, as FOLDER/packings/SCENARIO_COUNT.csv. Throws InputError and OutputError.
+void make_packings(const ScalingPlan& plan, const std::filesystem::path& folder);
 
 /// Prints a line for each run. Runs that would not fit are left out with their reason. Ends early once
 /// stop_signal() is set. Throws InputError and OutputError.

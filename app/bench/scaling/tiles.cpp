@@ -44,7 +44,10 @@ Packing tiled_packing(const Scenario& scenario, int grains) {
     cell.packing.count = grains / (side * side);
     cell.box = {};
     cell.box.periodic = true;
-    return tiled_between_walls(make_packing(cell), side);
+    Packing jammed = make_packing(cell);
+    for (Vec2& center : jammed.center) center *= 1.0 - squeeze;
+    for (double& wall : jammed.box.position) wall *= 1.0 - squeeze;
+    return tiled_between_walls(jammed, side);
 }
 
 }  // namespace softgrain::bench

@@ -15,7 +15,11 @@ int copies_of(int grains);
 /// `side` x `side` copies of a periodic cell without tilt, in the least box with walls around them.
 Packing tiled_between_walls(const Packing& cell, int side);
 
-/// As many grains: cells jammed by the scenario's [packing] and seed, copied.
+/// How much closer the centres are than those of grains that just touch, so that the first step has its
+/// contacts.
+inline constexpr double squeeze = 0.005;
+
+/// As many grains: cells jammed by the scenario's [packing] and seed, copied and squeezed.
 Packing tiled_packing(const Scenario& scenario, int grains);
 
 }  // namespace softgrain::bench
