@@ -39,11 +39,12 @@ def made_with() -> str:
                      for tool in ("c++", "valgrind"))
 
 
-def instructions(command: list[str], switches: list[str], profile: Path = Path("/dev/null")) -> tuple[int, str]:
+def instructions(command: list[str], switches: list[str], profile: Path = Path("/dev/null"), options: list[str] = [],
+                 cache: str = "off") -> tuple[int, str]:
     """Of a program while collection is on, and what it prints. Raises RuntimeError if it fails or nothing was counted."""
-    callgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}"]
+    callgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", *options]
     done = subprocess.run([*callgrind, *(f"--toggle-collect={function}" for function in switches), *command],
-                          capture_output=True, text=True, env=os.environ | {"SOFTGRAIN_CACHE": "off"})
+                          capture_output=True, text=True, env=os.environ | {"SOFTGRAIN_CACHE": cache})
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected or collected[1] == "0":
         own_words = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
