@@ -5,6 +5,7 @@
 
 #include "app/bench/scaling/limit_kernels.hpp"
 #include "app/process.hpp"
+#include "common/simd.hpp"
 
 namespace softgrain::bench {
 namespace {
@@ -45,7 +46,7 @@ double triad_rate(std::size_t n) {
 }
 
 bool can_fuse() {
-#if defined(__x86_64__)
+#if SOFTGRAIN_CAN_CLONE && SOFTGRAIN_SIMD_LEVEL >= 1  // else it is a call of a function
     return __builtin_cpu_supports("fma") != 0;
 #else
     return false;
