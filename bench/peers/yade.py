@@ -1,5 +1,5 @@
 # The discs that rigid_dem_peer --lammps wrote (without --shear-rate), in Yade (Debian: apt install yade): yade -n -x -j1 yade.py DATA FRICTION SHEAR STEPS
-# Prints kinetic energy per disc, stresses, Z, seconds of the loop.
+# Prints kinetic energy per disc, stresses, Z, seconds of the loop by the clock and of the processor.
 import sys
 import time
 from math import pi
@@ -42,9 +42,9 @@ O.engines = [
     NewtonIntegrator(damping=0.0, gravity=(0, 0, 0)),
 ]
 O.run(1, True)  # forces of the start; each further step moves the discs first
-began = time.time()
+began, began_cpu = time.time(), time.process_time()
 O.run(steps, True)
-seconds = time.time() - began
+seconds, cpu_seconds = time.time() - began, time.process_time() - began_cpu
 # Stress of a cell of unit depth; its sign is tension positive.
 stress = -utils.getStress(width * height)
 contacts = sum(1 for i in O.interactions if i.isReal)
@@ -55,7 +55,7 @@ def energy(disc):
 
 
 kinetic = sum(energy(b) for b in O.bodies) / count
-print("yade,%d,%d,%.10g,%.10g,%.10g,%.8f,%.4f" %
-      (count, steps, kinetic, stress[0, 0], stress[1, 1], 2.0 * contacts / count, seconds), flush=True)
+print("yade,%d,%d,%.10g,%.10g,%.10g,%.8f,%.4f,%.4f" %
+      (count, steps, kinetic, stress[0, 0], stress[1, 1], 2.0 * contacts / count, seconds, cpu_seconds), flush=True)
 sys.stdout.flush()
 O.exitNoBacktrace()

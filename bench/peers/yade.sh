@@ -20,14 +20,14 @@ work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
 
 {
     echo "# discs: $grains, steps: $steps, $(date -u +%F), $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2), load $(cut -d' ' -f1 /proc/loadavg)"
-    echo "friction,shear,round,kinetic,kinetic_yade,stress_xx,stress_xx_yade,stress_yy,stress_yy_yade,z,z_yade,seconds,seconds_yade,ratio"
+    echo "friction,shear,round,kinetic,kinetic_yade,stress_xx,stress_xx_yade,stress_yy,stress_yy_yade,z,z_yade,seconds,seconds_yade,ratio,cpu_seconds,cpu_seconds_yade"
     for friction in 0 0.5; do
         for shear in 0 1; do
             for round in $(seq "$rounds"); do
                 ours=$(OMP_NUM_THREADS=1 "$peer" --grains "$grains" --friction $friction --shear-rate $shear --steps "$steps")
                 theirs=$(yade -n -x -j1 "$here/yade.py" "$work/discs.data" $friction $shear "$steps" 2>/dev/null | grep '^yade')
                 echo "$ours,$theirs" | awk -F, -v head="$friction,$shear,$round" \
-                    '{ print head "," $7 "," $16 "," $9 "," $17 "," $10 "," $18 "," $11 "," $19 "," $4 "," $20 "," $20 / $4 }'
+                    '{ print head "," $7 "," $16 "," $9 "," $17 "," $10 "," $18 "," $11 "," $19 "," $4 "," $20 "," $20 / $4 "," $5 "," $21 }'
             done
         done
     done

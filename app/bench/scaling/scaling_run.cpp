@@ -231,7 +231,7 @@ ScalingResults run_scaling(const ScalingPlan& plan, const ScalingOptions& option
         for (ScalingPoint& point : results.points) {
             if (stop_signal() != 0) return results;
             if (!point.failure.empty()) continue;
-            const StepsReport* smaller = largest_below(results, point);
+            const StepsReport* smaller = point.repeats.empty() ? largest_below(results, point) : nullptr;
             if (const auto reason = smaller ? does_not_fit(*smaller, *point.of, point.count,
                                                            options.most_seconds, available_memory())
                                             : std::nullopt)
@@ -249,12 +249,12 @@ ScalingResults run_scaling(const ScalingPlan& plan, const ScalingOptions& option
     for (const Subject& subject : plan.subjects) {
         const ScalingPoint* measured = results.find(subject, subject.profile_count, 1);
         if (stop_signal() != 0 || !measured) continue;
-        Profile profile = profile_of(*measured, packings, options.folder, results.no_profile);
-        if (profile.empty()) {
-            fmt::print("{}: no profile: {}\n", subject.name, results.no_profile);
-            break;
-        }
-        results.profiles.emplace(subject.name, std::move(profile));
+        std::string failure;
+        Profile profile = profile_of(*measured, packings, options.folder, failure);
+        if (failure.empty())
+            results.profiles.emplace(subject.name, std::move(profile));
+        else
+            results.unprofiled.emplace(subject.name, failure);
     }
     return results;
 }

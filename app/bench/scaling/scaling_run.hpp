@@ -30,9 +30,9 @@ struct ScalingPoint {
 using Profile = std::map<std::string, double>;
 
 struct ScalingResults {
-    std::vector<ScalingPoint> points;         ///< in the order of the plan
-    std::map<std::string, Profile> profiles;  ///< by the subject's name
-    std::string no_profile;                   ///< why there are none; empty if there are
+    std::vector<ScalingPoint> points;               ///< in the order of the plan
+    std::map<std::string, Profile> profiles;        ///< by the subject's name
+    std::map<std::string, std::string> unprofiled;  ///< by the subject's name, why it has no profile
 
     /// Null if it was not run or failed.
     const ScalingPoint* find(const Subject& subject, int count, int threads) const;

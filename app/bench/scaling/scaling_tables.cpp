@@ -88,7 +88,6 @@ std::string growth(const ScalingResults& results) {
 }
 
 std::string shares(const ScalingPlan& plan, const ScalingResults& results) {
-    if (results.profiles.empty()) return fmt::format("Not measured: {}.\n", results.no_profile);
     std::string text;
     for (const Subject& subject : plan.subjects) {
         const auto profile = results.profiles.find(subject.name);
@@ -98,7 +97,9 @@ std::string shares(const ScalingPlan& plan, const ScalingResults& results) {
             table.push_back({part.title, report::percent(part.share)});
         text += markdown_table(table) + "\n";
     }
-    text.pop_back();
+    for (const auto& [name, reason] : results.unprofiled)
+        text += fmt::format("Of {} it was not measured: {}.\n\n", name, reason);
+    if (!text.empty()) text.pop_back();
     return text;
 }
 
