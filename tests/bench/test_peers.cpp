@@ -133,9 +133,10 @@ TEST_F(PeerPlans, ErrorsNameLineAndCure) {
 TEST_F(PeerPlans, ThoseOfTheProjectAreSound) {
     for (const char* name : {"plan.toml", "quick.toml"}) {
         const fs::path path = fs::path(SOFTGRAIN_SOURCE) / "bench/peers" / name;
-        for (const Peer& peer : read_peer_plan(path).peers)
-            if (peer.program.ends_with(".sh"))
-                EXPECT_TRUE(fs::exists(path.parent_path() / peer.program)) << peer.program;
+        for (const Peer& one : read_peer_plan(path).peers) {
+            if (!one.program.ends_with(".sh")) continue;
+            EXPECT_TRUE(fs::exists(path.parent_path() / one.program)) << one.program;
+        }
     }
 }
 

@@ -33,21 +33,15 @@ TEST(Tiles, TakesAsFewCopiesAsTheCellAllows) {
     EXPECT_THROW(copies_of(1009), InputError) << "a prime number";
 }
 
-TEST(Tiles, CopiesLieSideBySideWithinTheLeastBox) {
+TEST(Tiles, CopiesLieSideBySide) {
     Packing cell;
-    cell.box = Box{{1.0, 4.0, 0.0, 2.0}, true};
-    cell.center = {{1.5, 0.5}, {3.0, 1.9}};
+    cell.box = Box{{1.0, 4.0, 0.0, 2.0}};
+    cell.center = {{1.5, 0.5}, {3.0, 1.75}};
     cell.radius = {0.5, 0.25};
     const Packing many = tiled_between_walls(cell, 2);
     ASSERT_EQ(many.size(), 8U);
-    EXPECT_FALSE(many.box.periodic);
-    EXPECT_EQ(many.center[7], Vec2(6.0, 3.9)) << "the last copy is one cell further right and up";
-    for (int wall = 0; wall < 4; ++wall) {
-        double nearest = 1e9;
-        for (std::size_t i = 0; i < many.size(); ++i)
-            nearest = std::min(nearest, many.box.distance(wall, many.center[i]) - many.radius[i]);
-        EXPECT_NEAR(nearest, 0.0, 1e-12) << "wall " << wall << " touches a grain and cuts none";
-    }
+    EXPECT_EQ(many.center[7], Vec2(6.0, 3.75)) << "the last copy is one cell further right and up";
+    EXPECT_EQ(many.box.position, (std::array<double, 4>{1.0, 7.0, 0.0, 4.0}));
 }
 
 TEST(Tiles, GrainsOverlapAsFarAsTheyAreSqueezed) {
@@ -57,13 +51,17 @@ TEST(Tiles, GrainsOverlapAsFarAsTheyAreSqueezed) {
     ASSERT_EQ(packing.size(), 200U);
     double deepest = 0.0;
     int touching = 0;
-    for (std::size_t i = 0; i < packing.size(); ++i)
+    for (std::size_t i = 0; i < packing.size(); ++i) {
+        for (int wall = 0; wall < 4; ++wall)
+            deepest =
+                std::max(deepest, 1.0 - packing.box.distance(wall, packing.center[i]) / packing.radius[i]);
         for (std::size_t j = 0; j < i; ++j) {
             const double sum = packing.radius[i] + packing.radius[j];
             const double overlap = 1.0 - (packing.center[i] - packing.center[j]).norm() / sum;
             deepest = std::max(deepest, overlap);
             touching += overlap > 0.0 ? 1 : 0;
         }
+    }
     EXPECT_GT(deepest, 0.9 * squeeze);
     EXPECT_LT(deepest, 1.001 * squeeze) << "what just touched, and nothing deeper";
     EXPECT_GT(2.0 * touching / 200.0, 3.0) << "a jammed packing has nearly four contacts a grain";
@@ -287,8 +285,8 @@ TEST(Steps, ReportsSurviveTheirText) {
 
 TEST(MachineLimits, KernelsDoTheWorkThatIsCounted) {
     // x a + b from 0, 1, ... goes to b / (1 - a) = 1 in each of the lanes.
-    EXPECT_NEAR(multiply_and_add_4(20000), 4.0 * chains, 1e-6);
-    EXPECT_NEAR(multiply_and_add_8(20000), 8.0 * chains, 1e-6);
+    EXPECT_NEAR(multiply_and_add_4(40000), 4.0 * chains, 1e-6);
+    EXPECT_NEAR(multiply_and_add_8(40000), 8.0 * chains, 1e-6);
     double a[5] = {}, b[5] = {1, 2, 3, 4, 5}, c[5] = {1, 1, 1, 1, 2};
     EXPECT_EQ(triad(a, b, c, 3.0, 5), 6.0);
     EXPECT_EQ(a[4], 11.0);

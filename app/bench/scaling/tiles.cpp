@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "common/errors.hpp"
 #include "common/packing/make_packing.hpp"
 
@@ -19,21 +17,14 @@ int copies_of(int grains) {
 
 Packing tiled_between_walls(const Packing& cell, int side) {
     Packing many;
-    Box& box = many.box;
-    box.position = {cell.box.position[0], cell.box.position[0], cell.box.position[2], cell.box.position[2]};
+    many.box = cell.box;
+    many.box.position[1] = cell.box.position[0] + side * cell.box.width();
+    many.box.position[3] = cell.box.position[2] + side * cell.box.height();
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
             for (std::size_t i = 0; i < cell.size(); ++i) {
-                const Vec2 center = cell.center[i] + cell.box.image(x, y);
-                const double r = cell.radius[i];
-                for (int axis = 0; axis < 2; ++axis) {
-                    double& low = box.position[static_cast<std::size_t>(2 * axis)];
-                    double& high = box.position[static_cast<std::size_t>(2 * axis + 1)];
-                    low = std::min(low, center[axis] - r);
-                    high = std::max(high, center[axis] + r);
-                }
-                many.center.push_back(center);
-                many.radius.push_back(r);
+                many.center.push_back(cell.center[i] + cell.box.image(x, y));
+                many.radius.push_back(cell.radius[i]);
             }
     return many;
 }
@@ -43,7 +34,6 @@ Packing tiled_packing(const Scenario& scenario, int grains) {
     Scenario cell = scenario;
     cell.packing.count = grains / (side * side);
     cell.box = {};
-    cell.box.periodic = true;
     Packing jammed = make_packing(cell);
     for (Vec2& center : jammed.center) center *= 1.0 - squeeze;
     for (double& wall : jammed.box.position) wall *= 1.0 - squeeze;

@@ -1,5 +1,5 @@
 #pragma once
-// Packings of many grains: a jammed periodic cell, copied side by side, between walls.
+// Packings of many grains: a cell jammed between walls, copied side by side.
 #include "common/packing/packing.hpp"
 #include "common/scenario.hpp"
 
@@ -12,7 +12,7 @@ inline constexpr int largest_cell = 1000;
 /// InputError if there is no such number.
 int copies_of(int grains);
 
-/// `side` x `side` copies of a periodic cell without tilt, in the least box with walls around them.
+/// `side` x `side` copies of a cell between walls, without those between the copies.
 Packing tiled_between_walls(const Packing& cell, int side);
 
 /// How much closer the centres are than those of grains that just touch, so that the first step has its
