@@ -5,7 +5,7 @@
     bench/scaling/count_kernels.py --update           write kernels.csv anew, which the roofline of `softgrain bench scaling` is from
     --program P       count with the program P instead, made as the preset count says
     --softgrain S     the program that makes the packings; build/release/bin/softgrain if not given
-    --method M        only this one; not with --update
+    --method M        only this one; --update then keeps the rows of the others
 
 Every instruction of the time loop is counted by valgrind's callgrind, and looked up in the program's disassembly. An addition,
 subtraction, multiplication, division or square root of n doubles counts as n, masked or not; comparisons, minima and conversions do not.
@@ -173,6 +173,14 @@ def count(subject: dict, kernels: list[tuple[str, list[str]]], program: Path, so
     return {title: Work(one.flops / grain_steps, one.bytes / grain_steps, one.far_bytes / grain_steps) for title, one in found.items()}
 
 
+def update(counts: Path, rows: list[str], tools: str) -> None:
+    """Replaces the rows of the methods that were counted."""
+    counted = {row.split(",")[0] for row in rows}
+    before = counts.read_text().splitlines()[2:] if counts.exists() else []
+    kept = [row for row in before if row.split(",")[0] not in counted]
+    counts.write_text("\n".join([f"# {tools}", "method,kernel,flops,bytes,far_bytes", *sorted(kept + rows, key=lambda row: row.split(",")[0])]) + "\n")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--update", action="store_true")
@@ -191,9 +199,8 @@ def main() -> int:
         for title, one in count(subject, own, program, arguments.softgrain).items():
             rows.append(f"{subject['method']},{title},{one.flops:.1f},{one.bytes:.1f},{one.far_bytes:.1f}")
             print(rows[-1], flush=True)
-    if arguments.update and not arguments.method:
-        text = "\n".join([f"# {made_with()}", "method,kernel,flops,bytes,far_bytes", *rows]) + "\n"
-        (HERE / "kernels.csv").write_text(text)
+    if arguments.update:
+        update(HERE / "kernels.csv", rows, made_with())
     return 0
 
 
