@@ -91,7 +91,7 @@ PlotSpec roofline_plot(const std::vector<RooflinePoint>& points, const MachineLi
         series.y.assign(series.x.size(), giga * one.rate);
         series.colour = colour_of(one.of->method);
         series.marker = markers[number % markers.size()];
-        series.line = LineStyle::dotted;
+        series.line = number < markers.size() ? LineStyle::dotted : LineStyle::dashed;
         plot.series.push_back(std::move(series));
     }
     plot.x.min = low, plot.x.max = high;
