@@ -178,7 +178,8 @@ def update(counts: Path, rows: list[str], tools: str) -> None:
     counted = {row.split(",")[0] for row in rows}
     before = counts.read_text().splitlines()[2:] if counts.exists() else []
     kept = [row for row in before if row.split(",")[0] not in counted]
-    counts.write_text("\n".join([f"# {tools}", "method,kernel,flops,bytes,far_bytes", *sorted(kept + rows, key=lambda row: row.split(",")[0])]) + "\n")
+    by_method = sorted(kept + rows, key=lambda row: row.split(",")[0])
+    counts.write_text("\n".join([f"# {tools}", "method,kernel,flops,bytes,far_bytes", *by_method]) + "\n")
 
 
 def main() -> int:
