@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "app/bench/bench_error.hpp"
+#include "app/bench/stability/bench_stability.hpp"
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
 #include "app/methods.hpp"
@@ -40,7 +41,7 @@ struct Arguments {
     int seeds = 5;
     int directions = 12;
     std::string plan;
-    std::vector<std::string> cases;
+    std::vector<std::string> cases, parts;
     int repeats = 3;
     bool quick = false;
     int threads = 0;
@@ -120,6 +121,16 @@ int bench_error_command(const Arguments& a) {
                                .folder = a.out,
                                .resume = a.resume,
                                .force = a.force});
+}
+
+int bench_stability_command(const Arguments& a) {
+    install_stop_signals();
+    const std::string own = a.quick ? "bench/stability/quick.toml" : "bench/stability/plan.toml";
+    return bench::bench_stability({.plan = a.plan.empty() ? own : a.plan,
+                                   .parts = a.parts,
+                                   .methods = a.compared,
+                                   .folder = a.out,
+                                   .force = a.force});
 }
 
 int validate_command(const Arguments& a) {
@@ -236,6 +247,17 @@ void bench_error_options(CLI::App& command, Arguments& a) {
     command.add_flag("--force", a.force, "replace results that are in the folder");
 }
 
+void bench_stability_options(CLI::App& command, Arguments& a) {
+    command.add_option("--plan", a.plan, "what to run (TOML); bench/stability/plan.toml if not given");
+    command.add_flag("--quick", a.quick, "bench/stability/quick.toml instead, a few seconds");
+    command.add_option("--part", a.parts, "only these of random, extremes, map, long, comma separated")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"random", "extremes", "map", "long"}));
+    command.add_option("--method", a.compared, "only these methods, comma separated")->delimiter(',');
+    command.add_option("--out", a.out, "folder for the results")->default_val("results/bench_stability");
+    command.add_flag("--force", a.force, "replace results that are in the folder");
+}
+
 void run_options(CLI::App& command, Arguments& a) {
     scenario_options(command, a);
     thread_option(command, a);
@@ -304,6 +326,11 @@ int command_line(int argc, char** argv) {
     bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
     bench_error_app->callback([&chosen] { chosen = bench_error_command; });
     bench_error_options(*bench_error_app, a);
+    CLI::App* bench_stability_app = bench->add_subcommand(
+        "stability", "stable time steps, long runs, extreme and random scenarios");
+    bench_stability_app->footer("Example:\n  softgrain bench stability --part map --method sdem");
+    bench_stability_app->callback([&chosen] { chosen = bench_stability_command; });
+    bench_stability_options(*bench_stability_app, a);
 
     add("list", "methods, history columns and scenario keys", list_command, "list --keys")
         ->add_flag("--keys", a.keys, "every key of a scenario file with type, default, range and meaning");

@@ -1,5 +1,6 @@
 #pragma once
 // Another program as a child process.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,8 +10,27 @@ namespace softgrain {
 /// What becomes of a child's stdout: passed on, or read as its messages are.
 enum class ChildOutput { passed_on, read };
 
-/// Runs a program, given with its arguments, to its end with its messages read from stderr. Returns why it
-/// failed, if it did.
+/// What a child may use. Beyond the times it is asked to end (SIGTERM), and ended (SIGKILL) if it does not
+/// within as much again; beyond the memory its allocations fail.
+struct ChildLimits {
+    double cpu_time;       ///< [s]
+    double wall_time;      ///< [s]
+    std::uint64_t memory;  ///< address space [bytes]
+};
+
+struct ChildEnd {
+    int exit_code = 0;  ///< -1 if it ended by a signal or did not start
+    int signal = 0;
+    bool asked_to_end = false;  ///< it went beyond a limit
+    double cpu_time = 0.0;      ///< [s]
+    std::string messages;       ///< without white space at the end
+};
+
+/// Runs a program, given with its arguments, to its end with its messages read from stderr.
+ChildEnd run_child(const std::vector<std::string>& arguments, ChildOutput output,
+                   const std::optional<ChildLimits>& limits = std::nullopt);
+
+/// The same without limits. Returns why it failed, if it did.
 std::optional<std::string> run_program(const std::vector<std::string>& arguments,
                                        ChildOutput output = ChildOutput::passed_on);
 
