@@ -34,7 +34,7 @@ constexpr double spring = 0.5;  // sdem.tangential_stiffness times E
 
 /// With nothing in reach at the start there was no place to remember a spring in, and the first contact ended
 /// the program.
-TEST(Sliding, GrainsThatMeetLateRemember) {
+TEST(Friction, GrainsThatMeetLateRemember) {
     Scenario s = test::default_scenario(0.3);
     s.material.friction = s.material.wall_friction = 0.5;
     auto solver = test::solver_for(

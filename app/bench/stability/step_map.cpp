@@ -13,7 +13,9 @@
 namespace softgrain::bench {
 namespace {
 
-constexpr double squeeze_time = 60.0, rest_time = 300.0;  ///< [waves through a grain]
+constexpr int steps_to_settle = 64;
+constexpr long long steps_between_looks = 50;
+constexpr double squeeze_time = 40.0, rest_time = 150.0;  ///< [waves through a grain]
 
 std::vector<std::string> words(const std::string& text) {
     std::istringstream stream(text);
@@ -37,10 +39,8 @@ class CellSearch {
     double largest() {
         return largest_stable([&](double factor) { return is_stable(factor); });
     }
-    double default_step() { return motion({}).solver().stable_time_step(); }
-    double predicted_step() {
-        return plan_.safety_key.empty() ? default_step() : motion_with(1.0).solver().stable_time_step();
-    }
+    double default_step() { return settled(with_keys(spec_, damping_)).solver().stable_time_step(); }
+    double predicted_step() { return settled(with_safety(1.0)).solver().stable_time_step(); }
 
   private:
     /// With the method's own damping, whatever the cell's is.
@@ -54,34 +54,33 @@ class CellSearch {
         box_ = motion.box();
     }
 
-    Motion motion(const std::vector<std::string>& set) {
-        std::vector<std::string> all = damping_;
-        all.insert(all.end(), set.begin(), set.end());
-        return loaded(with_keys(spec_, all));
-    }
-    /// The safety may lie beyond what a scenario file may say.
-    Motion motion_with(double safety) {
+    /// The value may lie beyond what a scenario file may say.
+    Scenario with_safety(double value) {
         Scenario scenario = with_keys(spec_, damping_);
-        const auto dot = plan_.safety_key.find('.');
-        scenario.method_settings.at(plan_.safety_key.substr(0, dot))
-            .set(plan_.safety_key.substr(dot + 1), safety);
-        return loaded(scenario);
+        if (const auto dot = plan_.safety_key.find('.'); dot != std::string::npos)
+            scenario.method_settings.at(plan_.safety_key.substr(0, dot))
+                .set(plan_.safety_key.substr(dot + 1), value);
+        return scenario;
     }
-    Motion loaded(const Scenario& scenario) {
+
+    /// In the state at rest, after so many steps of half the length that the step is this scenario's own and
+    /// no longer that of the state.
+    Motion settled(const Scenario& scenario) {
         Motion motion(find_method(plan_.method).make(scenario, scene_.packing), scene_.packing.box);
         motion.load(state_, box_);
+        for (int k = 0; k < steps_to_settle; ++k) motion.step(0.5);
         return motion;
     }
 
     bool is_stable(double factor) {
         try {
-            Motion motion = plan_.safety_key.empty() ? this->motion({}) : motion_with(factor);
-            const double own_factor = plan_.safety_key.empty() ? factor : 1.0;
+            Motion motion = settled(with_safety(plan_.factor_by_key ? factor : 1.0));
+            const double times = plan_.factor_by_key ? 1.0 : factor;
             const EnergyLedger start = motion.energy();
             const double bound = std::max(most_growth * start.kinetic, noise * std::abs(start.elastic));
             for (long long k = 1; k <= plan_.steps; ++k) {
-                motion.step(own_factor);
-                if (k % 50 != 0) continue;
+                motion.step(times);
+                if (k % steps_between_looks != 0 && k != plan_.steps) continue;
                 motion.solver().check_finite();
                 if (!(motion.energy().kinetic <= bound)) return false;
             }

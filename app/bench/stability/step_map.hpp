@@ -12,7 +12,9 @@ namespace softgrain::bench {
 struct MapPlan {
     std::string name, method;
     std::vector<std::string> set;
-    std::string safety_key;   ///< "sdem.safety"; empty: steps are multiplied instead
+    std::string safety_key;  ///< "sdem.safety"; its value 1 is the predicted step. Empty: the default step is
+    bool factor_by_key =
+        false;                ///< what is tried is the key's value; otherwise predicted steps are multiplied
     std::vector<double> phi;  ///< undeformed area of the grains / area of the box
     std::vector<double> poisson_ratio, size_ratio, stiffness_ratio;
     std::vector<std::string> damping;  ///< KEY=VALUE KEY=VALUE
