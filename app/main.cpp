@@ -62,6 +62,8 @@ int run_command(const Arguments& a) {
                                               .resume = a.resume,
                                               .force = a.force,
                                               .quiet = a.quiet});
+    if (report.exit_code == 2 && report.steps == 0)  // there are no results to point at
+        throw InputError(fmt::format("{}: {}", report.method, report.ended));
     fmt::print("{}: {}\n{} steps, {:.2f} s wall, {:.2f} s CPU, results in {}\n", report.method, report.ended,
                report.steps, report.wall_time, report.cpu_time, a.out);
     return report.exit_code;
@@ -326,8 +328,8 @@ int command_line(int argc, char** argv) {
     bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
     bench_error_app->callback([&chosen] { chosen = bench_error_command; });
     bench_error_options(*bench_error_app, a);
-    CLI::App* bench_stability_app = bench->add_subcommand(
-        "stability", "stable time steps, long runs, extreme and random scenarios");
+    CLI::App* bench_stability_app =
+        bench->add_subcommand("stability", "stable time steps, long runs, extreme and random scenarios");
     bench_stability_app->footer("Example:\n  softgrain bench stability --part map --method sdem");
     bench_stability_app->callback([&chosen] { chosen = bench_stability_command; });
     bench_stability_options(*bench_stability_app, a);

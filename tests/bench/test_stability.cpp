@@ -1,8 +1,11 @@
 // Bisection on a closed form, random scenarios, children with limits, values that are not finite, plans.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -152,7 +155,10 @@ TEST_F(Folder, PlansAreReadAndTheirErrorsHaveALine) {
 }
 
 TEST(StabilityTables, CountWhatFailsAndSayWhere) {
-    const MapPlan plan{.name = "m", .method = "sdem", .damping = {"d"}};
+    MapPlan plan;
+    plan.name = "m";
+    plan.method = "sdem";
+    plan.damping = {"d"};
     StabilityResults results;
     results.map = {{.plan = &plan, .cell = {0.9, 0.3, 1.5, 1.0, "d"}, .largest = 0.4, .safety = 0.8},
                    {.plan = &plan, .cell = {0.8, 0.3, 1.5, 1.0, "d"}, .largest = 2.0, .safety = 0.8},
@@ -167,6 +173,19 @@ TEST(StabilityTables, CountWhatFailsAndSayWhere) {
     EXPECT_NE(map_csv(results.map).find(",,,,\"refused\"\n"), std::string::npos) << map_csv(results.map);
     EXPECT_NE(random_csv(results.random).find("diverged,3,0,0,\"why not\"\n"), std::string::npos)
         << random_csv(results.random);
+}
+
+/// It used to end with "0 steps, ... results in FOLDER", where nothing was.
+TEST_F(Folder, AMethodThatRefusesSaysSoInOneLine) {
+    std::ofstream(folder / "s.toml") << "[material]\ncohesion = 0.1\n[packing]\ncount = 3\n[[loading]]\n"
+                                        "kind = \"hold\"\nduration = 1.0\n";
+    const ChildEnd end = run_child({SOFTGRAIN_EXECUTABLE, "run", (folder / "s.toml").string(), "--method",
+                                    "mpm", "--out", (folder / "out").string()},
+                                   ChildOutput::read);
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_TRUE(end.messages.starts_with("mpm: cannot run this scenario: material.cohesion")) << end.messages;
+    EXPECT_EQ(end.messages.find('\n'), std::string::npos) << end.messages;
+    EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 /// As its users run it.

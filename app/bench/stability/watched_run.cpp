@@ -41,6 +41,13 @@ bool is_clear(const std::string& reason, Ending ending) {
     return reason.size() > 10 && (ending == Ending::refused || reason.find('\n') == std::string::npos);
 }
 
+/// Without the folder in which the bench runs, which says nothing to others.
+std::string without_here(std::string text) {
+    const std::string here = fs::current_path().string() + "/";
+    for (std::size_t at = 0; (at = text.find(here, at)) != std::string::npos;) text.erase(at, here.size());
+    return text;
+}
+
 /// What the run says of itself, and whether its files are sound.
 void look_at_files(WatchedRun& run, const fs::path& folder, const Method& method) {
     try {
@@ -91,6 +98,7 @@ WatchedRun watch_run(const RunToWatch& what, const fs::path& folder, const Child
     WatchedRun run{ending_of(end), end.exit_code, end.messages, 0, end.cpu_time};
     if (end.signal != 0) run.reason = fmt::format("signal {} {}", end.signal, end.messages);
     if (fs::exists(folder)) look_at_files(run, folder, find_method(what.method));
+    run.reason = without_here(run.reason);
     if (!is_clear(run.reason, run.ending)) run.ending = Ending::unclear;
     if (!is_failure(run.ending)) fs::remove_all(folder);
     return run;
