@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/bench/bench_error.hpp"
 #include "app/bench/commands.hpp"
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
@@ -40,11 +39,6 @@ struct Arguments {
     double plateau = 0.0, modulus = 0.0;
     int seeds = 5;
     int directions = 12;
-    std::string plan;
-    std::vector<std::string> cases;
-    int repeats = 3;
-    double repeat_below = 60.0;
-    bool quick = false;
     int threads = 0;
     bool calibrate = false;
     bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
@@ -63,6 +57,8 @@ int run_command(const Arguments& a) {
                                               .resume = a.resume,
                                               .force = a.force,
                                               .quiet = a.quiet});
+    if (report.exit_code == 2 && report.steps == 0)  // there are no results to point at
+        throw InputError(fmt::format("{}: {}", report.method, report.ended));
     fmt::print("{}: {}\n{} steps, {:.2f} s wall, {:.2f} s CPU, results in {}\n", report.method, report.ended,
                report.steps, report.wall_time, report.cpu_time, a.out);
     return report.exit_code;
@@ -110,19 +106,6 @@ int calibrate_command(const Arguments& a) {
                       .seeds = a.seeds,
                       .threads = a.threads,
                       .curve = a.out});
-}
-
-int bench_error_command(const Arguments& a) {
-    install_stop_signals();
-    const std::string own = a.quick ? "bench/error/quick.toml" : "bench/error/plan.toml";
-    return bench::bench_error({.plan = a.plan.empty() ? own : a.plan,
-                               .cases = a.cases,
-                               .methods = a.compared,
-                               .repeats = a.repeats,
-                               .repeat_below = a.repeat_below,
-                               .folder = a.out,
-                               .resume = a.resume,
-                               .force = a.force});
 }
 
 int validate_command(const Arguments& a) {
@@ -176,30 +159,12 @@ int info_command(const Arguments& a) {
     return 0;
 }
 
-/// Another program takes this one's place, with arguments passed on untouched.
-[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments) {
-    std::vector<char*> argv{const_cast<char*>(program.c_str())};
-    for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    ::execv(program.c_str(), argv.data());
-    throw OutputError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
-}
-
 /// Drawing lives in an executable of its own.
 int render_command(const Arguments& a) {
     const std::string program = find_renderer().string();
     if (program.empty())
         throw OutputError("softgrain-render is not beside this program; build or install it");
     become(program, a.rest);
-}
-
-/// Builds the program anew, with and without features, hence a script of the source tree.
-int bench_skip_command(const Arguments& a) {
-    const std::string script = "bench/skip/skip.py";
-    if (!std::filesystem::exists(script))
-        throw InputError(fmt::format(
-            "{}: not here; bench skip builds softgrain anew, start it in its source tree", script));
-    become(script, a.rest);
 }
 
 void scenario_options(CLI::App& command, Arguments& a) {
@@ -238,22 +203,6 @@ void calibrate_options(CLI::App& command, Arguments& a) {
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     command.add_option("--out", a.out, "CSV file for the curves of the check");
-}
-
-void bench_error_options(CLI::App& command, Arguments& a) {
-    command.add_option("--plan", a.plan, "cases and settings (TOML); bench/error/plan.toml if not given");
-    command.add_flag("--quick", a.quick, "bench/error/quick.toml instead, a few seconds");
-    command.add_option("--case", a.cases, "only these cases, comma separated")->delimiter(',');
-    command.add_option("--method", a.compared, "only these methods, comma separated")->delimiter(',');
-    command.add_option("--repeats", a.repeats, "of every run; CPU times are medians")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    command.add_option("--repeat-below", a.repeat_below, "[s] runs of more CPU time are not repeated")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command.add_option("--out", a.out, "folder for the results")->default_val("results/bench_error");
-    command.add_flag("--resume", a.resume, "keep the runs in the folder that are finished");
-    command.add_flag("--force", a.force, "replace results that are in the folder");
 }
 
 void run_options(CLI::App& command, Arguments& a) {
@@ -317,25 +266,8 @@ int command_line(int argc, char** argv) {
     scenario_options(*add("validate", "check a scenario file and say all that is wrong with it",
                           validate_command, "validate my_scenario.toml"),
                      a);
-    CLI::App* bench = app.add_subcommand("bench", "measure the methods");
-    bench->require_subcommand(1);
-    CLI::App* bench_error_app =
-        bench->add_subcommand("error", "error against cost for every method and setting of a plan");
-    bench_error_app->footer("Example:\n  softgrain bench error --case four_walls --out results/bench_error");
-    bench_error_app->callback([&chosen] { chosen = bench_error_command; });
-    bench_error_options(*bench_error_app, a);
     std::function<int()> chosen_bench;
-    bench::add_commands(*bench, chosen_bench);
-
-    CLI::App* skip = bench->add_subcommand(
-        "skip", "instructions that unused and used options cost, and that skipping saves (needs valgrind)");
-    skip->footer("Example:\n  softgrain bench skip unused saved");
-    skip->prefix_command();
-    skip->set_help_flag();
-    skip->callback([&a, skip, &chosen] {
-        a.rest = skip->remaining();
-        chosen = bench_skip_command;
-    });
+    bench::add_commands(*app.add_subcommand("bench", "measure the methods"), chosen_bench);
 
     add("list", "methods, history columns and scenario keys", list_command, "list --keys")
         ->add_flag("--keys", a.keys, "every key of a scenario file with type, default, range and meaning");

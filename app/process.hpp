@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace softgrain {
 
@@ -22,5 +23,8 @@ std::string processor_name();  ///< "2 x NAME", the number of those this process
 std::string date_and_time();   ///< now, "2024-05-01 12:30 UTC"
 
 bool stderr_is_terminal();
+
+/// Another program takes this one's place. Throws OutputError if it cannot be started.
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace softgrain

@@ -20,7 +20,6 @@ std::vector<T> carried(std::span<const Key> old_keys, const std::vector<T>& old,
 
 template <class Key>
 void carry(ContactHistory& history, std::span<const Key> old_keys, std::span<const Key> keys) {
-    if (history.spring.empty() && history.adhesion.empty() && history.slip_rate.empty()) return;
     for (auto* values : {&history.spring, &history.adhesion, &history.lens})
         *values = carried(old_keys, *values, keys);
     history.tangential.assign(keys.size(), 0.0);
@@ -54,7 +53,7 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
     built_box_ = box;
 
     guess = carried<Pair>(old_pairs, guess, pairs());
-    carry<Pair>(pair_history, old_pairs, pairs());
+    if (keeps_history) carry<Pair>(pair_history, old_pairs, pairs());
     pair_contact.assign(pairs().size(), Contact{});
     pair_opening.assign(keeps_openings ? pairs().size() : 0, Opening{});
     first_.assign(n + 1, 0);
@@ -77,7 +76,7 @@ void ContactList::build(std::span<const Vec2> center, std::span<const double> re
             if (box.distance(w, center[g]) < reach[g] + skin) wall_pair_.push_back({static_cast<int>(g), w});
         wall_start_.push_back(static_cast<std::uint32_t>(wall_pair_.size()));
     }
-    carry<WallPair>(wall_history, old_walls, wall_pair_);
+    if (keeps_history) carry<WallPair>(wall_history, old_walls, wall_pair_);
     wall_contact.assign(wall_pair_.size(), Contact{});
     wall_opening.assign(wall_pair_.size(), Opening{});
 }

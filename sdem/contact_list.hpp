@@ -50,6 +50,7 @@ class ContactList {
     std::vector<Opening> pair_opening;  ///< [pairs] if kept
     std::vector<Opening> wall_opening;  ///< [wall pairs]
     bool keeps_openings = false;        ///< of pairs, for laws that use them
+    bool keeps_history = false;         ///< for laws with a memory
     ContactHistory pair_history, wall_history;
 
     /// Slots of the pairs whose first grain is g: [first(g), first(g + 1)).

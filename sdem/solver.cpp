@@ -45,11 +45,8 @@ SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packin
         memory_.plastic_yy.assign(n, 1.0);
     }
     contacts_.keeps_openings = !has_potential();
+    contacts_.keeps_history = options_.sliding.needs_history();
     rebuild_contacts();
-    if (options_.sliding.needs_history()) {
-        contacts_.pair_history.resize(contacts_.pairs().size());
-        contacts_.wall_history.resize(contacts_.wall_pairs().size());
-    }
     update_contacts(0.0);
     if (options_.motion.imposes_area)
         for (std::size_t g = 0; g < n; ++g) {

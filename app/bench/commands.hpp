@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands `steps`, `scaling` and `peers` of `softgrain bench`.
+// The subcommands of `softgrain bench`.
 #include <CLI/CLI.hpp>
 
 #include <functional>

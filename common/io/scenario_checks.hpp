@@ -5,6 +5,7 @@
 
 #include "common/io/scenario_errors.hpp"
 #include "common/io/scenario_table.hpp"
+#include "common/scenario.hpp"
 
 namespace softgrain::scenario_io {
 
@@ -14,6 +15,8 @@ void check_packing(const CheckedTable& packing, const CheckedTable& box, const s
 /// One of the stages; `box` tells whether there are walls or a periodic cell.
 void check_stage(std::span<const CheckedTable> stages, std::size_t number, const CheckedTable& box,
                  ErrorList& errors);
+/// Whether a stage of this kind may have this key of [[loading]].
+bool is_for(std::string_view key, LoadingKind kind);
 /// Each until_strain and until_shear lies ahead of where its stage begins, as far as that is known.
 void check_course(std::span<const CheckedTable> stages, ErrorList& errors);
 

@@ -190,6 +190,11 @@ class StageCheck {
 
 }  // namespace
 
+bool is_for(std::string_view key, LoadingKind kind) {
+    const auto* use = std::ranges::find(key_uses, key, &KeyUse::key);
+    return use == key_uses.end() || (use->kinds & kinds(kind)) != 0;
+}
+
 void check_stage(std::span<const CheckedTable> stages, std::size_t number, const CheckedTable& box,
                  ErrorList& errors) {
     if (stages[number].sound({"kind"})) StageCheck(stages[number], errors).check(number, stages, box);

@@ -32,6 +32,30 @@ std::unique_ptr<Solver> dragged(const Scenario& s, double depth, double speed) {
 constexpr double mass = std::numbers::pi;
 constexpr double spring = 0.5;  // sdem.tangential_stiffness times E
 
+/// With nothing in reach at the start there was no place to remember a spring in, and the first contact ended
+/// the program.
+TEST(Friction, GrainsThatMeetLateRemember) {
+    Scenario s = test::default_scenario(0.3);
+    s.material.friction = s.material.wall_friction = 0.5;
+    auto solver = test::solver_for(
+        s, test::packing_of(Box{{-10.0, 10.0, -10.0, 10.0}}, {{-5.0, 0.0}, {5.0, 0.3}}, {1.0, 1.0}));
+    EXPECT_TRUE(solver->view(Need::contacts).contacts.empty());
+    test::State state = test::state_of(*solver);
+    state.velocity = {{0.1, 0.1}, {-0.1, 0.1}};
+    test::set_state(*solver, state);
+    const WallMotion walls = test::still(*solver);
+    bool pair = false, wall = false, drags = false;
+    for (int k = 0; k < 4000; ++k) {
+        solver->advance(walls, 0.05);
+        for (const GrainContact& c : solver->view(Need::contacts).contacts) {
+            (c.with_wall() ? wall : pair) = true;
+            drags = drags || std::abs(c.force.dot(perpendicular(c.normal))) > 0.0;
+        }
+    }
+    EXPECT_TRUE(pair && wall && drags);
+    EXPECT_GT(solver->view(Need::base).energy.friction, 0.0);
+}
+
 TEST(Friction, AStickingGrainSwingsOnItsTwoSprings) {
     const double friction = 0.5, speed = 1e-4, omega = std::sqrt(2.0 * spring / mass);
     const auto solver = dragged(rigid(friction), 0.05, speed);

@@ -42,11 +42,10 @@ std::vector<std::string> command_of(const Peer& peer, const fs::path& folder) {
 
 std::string version_of(const Peer& peer) {
     const fs::path query = find_on_path("dpkg-query");
-    std::string version;
     if (peer.package.empty() || query.empty()) return "";
-    const auto failure =
-        run_program({query.string(), "-W", "-f", "${Version}", peer.package}, ChildOutput::read, &version);
-    return failure ? "" : version;
+    const ChildEnd end =
+        run_child({query.string(), "-W", "-f", "${Version}", peer.package}, ChildOutput::read);
+    return end.exit_code == 0 ? end.messages : "";
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -150,13 +149,13 @@ PeerResults run_peers(const PeerPlan& plan, int repeats) {
         for (const Peer& peer : plan.peers) {
             if (stop_signal() != 0) return results;
             if (out.contains(&peer)) continue;
-            std::string printed;
             const double begin = wall_clock();
             try {
-                if (const auto failure =
-                        run_program(command_of(peer, plan.source.parent_path()), ChildOutput::read, &printed))
+                const auto command = command_of(peer, plan.source.parent_path());
+                const ChildEnd end = run_child(command, ChildOutput::read);
+                if (const auto failure = failure_of(end, command[0]))
                     throw InputError(failure->substr(failure->rfind('\n') + 1));
-                for (const PeerTime& one : read_peer_times(peer, printed)) {
+                for (const PeerTime& one : read_peer_times(peer, end.messages)) {
                     PeerRow& row = row_of(results, peer, one.title);
                     row.ours.push_back(one.ours);
                     row.theirs.push_back(one.theirs);

@@ -102,14 +102,13 @@ StepsReport report_in(const std::string& said) {
 }
 
 void run_once(ScalingPoint& point, Packings& packings) {
-    std::string said;
-    const auto failure = run_program(command_of(*point.of, point.threads, point.of->steps(point.count),
-                                                packings.overrides(*point.of, point.count)),
-                                     ChildOutput::read, &said);
-    if (failure)
+    const Command command = command_of(*point.of, point.threads, point.of->steps(point.count),
+                                       packings.overrides(*point.of, point.count));
+    const ChildEnd end = run_child(command, ChildOutput::read);
+    if (const auto failure = failure_of(end, command[0]))
         point.failure = first_line(*failure);
     else
-        point.repeats.push_back(report_in(said));
+        point.repeats.push_back(report_in(end.messages));
 }
 
 /// Of the same subject, a run of as many grains as possible, but fewer; null if there is none.
@@ -137,19 +136,20 @@ Profile profile_of(const ScalingPoint& measured, Packings& packings, const fs::p
                                static_cast<int>(profiled_seconds / (measured.cpu() * measured.count)));
     const Command run = command_of(subject, 1, steps, packings.overrides(subject, measured.count));
     record.insert(record.end(), run.begin(), run.end());
-    std::string said;
-    if (const auto failed = run_program(record, ChildOutput::read, &said)) {
+    const ChildEnd recorded = run_child(record, ChildOutput::read);
+    if (const auto failed = failure_of(recorded, record[0])) {
         failure = "perf record: " + first_line(*failed);
         return {};
     }
-    const StepsReport report = report_in(said);
-    const auto failed =
-        run_program({perf.string(), "report", "-q", "--stdio", "--no-children", "-F", "overhead,sym", "-i",
-                     data, "--time", fmt::format("{:.6f},{:.6f}", report.began, report.ended)},
-                    ChildOutput::read, &said);
+    const StepsReport report = report_in(recorded.messages);
+    const ChildEnd listed =
+        run_child({perf.string(), "report", "-q", "--stdio", "--no-children", "-F", "overhead,sym", "-i",
+                   data, "--time", fmt::format("{:.6f},{:.6f}", report.began, report.ended)},
+                  ChildOutput::read);
+    const auto failed = failure_of(listed, record[0]);
     fs::remove(data);
     if (failed) failure = "perf report: " + first_line(*failed);
-    Profile profile = failed ? Profile{} : read_profile(said);
+    Profile profile = failed ? Profile{} : read_profile(listed.messages);
     if (!failed && profile.empty()) failure = "perf took no samples";
     return profile;
 }
