@@ -105,7 +105,7 @@ TEST_F(Killed, AtRandomMomentsEndsWithTheSameBits) {
     std::map<std::string, Straight> straight;
     for (const char* method : methods) straight[method] = straight_run(method);
     std::map<std::string, int> kills;
-    int done = 0, half_written = 0;
+    int done = 0, half_written = 0, renames = 0;
     for (int run = 0; done < wanted; ++run) {
         ASSERT_LT(run, 20 * wanted) << "runs end before they can be killed";
         const std::string method = methods[run % 4];
@@ -122,12 +122,16 @@ TEST_F(Killed, AtRandomMomentsEndsWithTheSameBits) {
         }
         const Outcome last = softgrain(run_of(method, out, {"--resume"}));
         ASSERT_EQ(last.exit_code, 0) << method << " killed in " << history << last.err;
-        ASSERT_EQ(last.err, "") << method << " killed in " << history;
+        // Between the two renames of a checkpoint there is no run.h5.
+        const bool between_renames = last.err.find("run.h5: missing; going on from") != std::string::npos;
+        ASSERT_TRUE(between_renames || last.err.empty()) << method << " killed in " << history << last.err;
+        renames += between_renames ? 1 : 0;
         ASSERT_TRUE(same_results(straight[method].folder, out)) << method << " killed in " << history;
         fs::remove_all(out);
     }
     for (const auto& [what, count] : kills) std::printf("%4d kills in %s\n", count, what.c_str());
-    std::printf("%4d of %d left a file half written\n", half_written, done);
+    std::printf("%4d of %d left a file half written, %d fell between two renames\n", half_written, done,
+                renames);
 }
 
 }  // namespace
