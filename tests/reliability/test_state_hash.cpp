@@ -54,7 +54,7 @@ class StateHashes : public ::testing::TestWithParam<Bands> {
     Run run() const {
         const bool grains_have_parts = GetParam().method == "bpm" || GetParam().method == "mpm";
         Scenario scenario = scenario_of(GetParam().method);
-        const Packing packing = square_lattice(grains_have_parts ? 6 : 30);
+        const Packing packing = square_lattice(grains_have_parts ? 3 : 30);
         const auto solver = make(GetParam(), scenario, packing);
         LoadingStage& stage = scenario.loading.front();
         stage.until_strain = 0.004;
