@@ -94,7 +94,6 @@ TEST_P(StateHashes, AreTheSameOverThreadsAndRestarts) {
     Checkpoint of_loop;
     bool begun = false;
     for (int part = 0; state.ended.empty(); ++part) {
-        omp_set_num_threads(1 + part % 3);
         TimeLoop loop(scenario, packing, *solver, {});
         if (begun) loop.resume(state);
         std::atomic<int> stop{0};
@@ -103,6 +102,7 @@ TEST_P(StateHashes, AreTheSameOverThreadsAndRestarts) {
         of_loop = {};
         loop.state().save(of_loop);
         solver->save(of_solver);
+        omp_set_num_threads(1 + part % 3);
         solver = make(GetParam(), scenario, packing);
         solver->load(of_solver);
         state.load(of_loop);
