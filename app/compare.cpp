@@ -14,6 +14,7 @@
 #include "app/report/page.hpp"
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/folder_lock.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/packing/make_packing.hpp"
 #include "common/packing/packing_csv.hpp"
@@ -108,6 +109,9 @@ int compare(const CompareRequest& request) {
         reference = {request.reference.stem().string(), read_history(request.reference)};
 
     make_directories(request.folder);
+    const FolderLock lock(request.folder);
+    if (!request.resume && !request.force)
+        for (const std::string& name : request.methods) refuse_to_overwrite(request.folder / name);
     write_view_script(request.folder, request.methods);
     const Packing packing = make_packing(request.scenario);
     write_packing_csv(request.folder / "initial_packing.csv", packing);

@@ -11,6 +11,7 @@
 #include "app/bench/commands.hpp"
 #include "app/calibrate.hpp"
 #include "app/compare.hpp"
+#include "app/memory.hpp"
 #include "app/methods.hpp"
 #include "app/probe_fan.hpp"
 #include "app/process.hpp"
@@ -40,13 +41,26 @@ struct Arguments {
     int seeds = 5;
     int directions = 12;
     int threads = 0;
+    double checkpoint_period = 60.0;
+    std::uint64_t memory = 0;
+    bool allow_outside = false;
     bool calibrate = false;
     bool resume = false, force = false, quiet = false, no_pictures = false, keys = false;
 };
 
+Scenario scenario_of(const Arguments& a) {
+    return read_scenario(a.scenario, a.set, method_keys(),
+                         a.allow_outside ? NamedFiles::anywhere : NamedFiles::inside);
+}
+
+void print_warnings(const RunReport& report) {
+    for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 int run_command(const Arguments& a) {
     const Method& method = find_method(a.method);
-    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Scenario scenario = scenario_of(a);
+    check_memory(scenario, method, a.memory);
     const Packing packing = make_packing(scenario);
     install_stop_signals();
     const RunReport report = run_into_folder({.scenario = scenario,
@@ -56,19 +70,22 @@ int run_command(const Arguments& a) {
                                               .threads = a.threads,
                                               .resume = a.resume,
                                               .force = a.force,
+                                              .checkpoint_period = a.checkpoint_period,
                                               .quiet = a.quiet});
     if (report.exit_code == 2 && report.steps == 0)  // there are no results to point at
         throw InputError(fmt::format("{}: {}", report.method, report.ended));
     fmt::print("{}: {}\n{} steps, {:.2f} s wall, {:.2f} s CPU, results in {}\n", report.method, report.ended,
                report.steps, report.wall_time, report.cpu_time, a.out);
+    print_warnings(report);
     return report.exit_code;
 }
 
 int compare_command(const Arguments& a) {
-    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Scenario scenario = scenario_of(a);
     std::vector<std::string> chosen = a.compared;
     if (chosen.empty())
         for (const Method& m : methods()) chosen.emplace_back(m.name);
+    for (const std::string& name : chosen) check_memory(scenario, find_method(name), a.memory);
     install_stop_signals();
     return compare({.scenario = scenario,
                     .methods = chosen,
@@ -84,7 +101,8 @@ int compare_command(const Arguments& a) {
 }
 
 int fan_command(const Arguments& a) {
-    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Scenario scenario = scenario_of(a);
+    for (const std::string& name : a.compared) check_memory(scenario, find_method(name), a.memory);
     install_stop_signals();
     return probe_fan({.scenario = scenario,
                       .methods = a.compared,
@@ -98,7 +116,7 @@ int fan_command(const Arguments& a) {
 }
 
 int calibrate_command(const Arguments& a) {
-    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Scenario scenario = scenario_of(a);
     const bool by_plateau = a.plateau > 0.0;
     return calibrate({.scenario = scenario,
                       .property = by_plateau ? bpm::GrainProperty::plateau : bpm::GrainProperty::modulus,
@@ -109,7 +127,7 @@ int calibrate_command(const Arguments& a) {
 }
 
 int validate_command(const Arguments& a) {
-    const Scenario scenario = read_scenario(a.scenario, a.set, method_keys());
+    const Scenario scenario = scenario_of(a);
     for (const Method& m : methods()) scenario_for(scenario, m);
     fmt::print("{}: valid\n", a.scenario);
     return 0;
@@ -145,9 +163,11 @@ int info_command(const Arguments& a) {
     fmt::print(
         "method       {}\nended        {}\ngrains       {}\nsteps        {}\nsimulated    {:.6g} s\nwall "
         "time    "
-        "{:.2f} s\nCPU time     {:.2f} s\npeak memory  {:.1f} MB\nsamples      {}\n",
+        "{:.2f} s\nCPU time     {:.2f} s\npeak memory  {:.1f} MB\nsamples      {}\n"
+        "state hash   {}\n",
         r.method, r.ended, r.grains, r.steps, r.simulated_time, r.wall_time, r.cpu_time, r.peak_memory / 1e6,
-        history.rows());
+        history.rows(), r.last_state_hash.empty() ? "unknown" : r.last_state_hash);
+    print_warnings(r);
     if (history.rows() == 0) return 0;
     fmt::print("\n{:<32} {:>14} {:>14}\n", "", "first", "last");
     for (const Observable& o : observables()) {
@@ -173,6 +193,8 @@ void scenario_options(CLI::App& command, Arguments& a) {
         .add_option("--set", a.set, "override a key, e.g. --set material.poisson_ratio=0.45; may be repeated")
         ->take_all()
         ->expected(1);
+    command.add_flag("--allow-outside", a.allow_outside,
+                     "let packing.path lead out of the scenario's folder and the current one with ..");
 }
 
 /// A finite number > 0.
@@ -212,6 +234,11 @@ void run_options(CLI::App& command, Arguments& a) {
     command.add_flag("--resume", a.resume, "go on from the last checkpoint in the folder");
     command.add_flag("--force", a.force, "replace results that are in the folder");
     command.add_flag("--quiet", a.quiet, "no progress");
+    command
+        .add_option("--memory", a.memory,
+                    "most memory that a run may need by estimate, e.g. 20G or 500M; what the machine has if "
+                    "not given")
+        ->transform(CLI::AsSizeValue(true));
 }
 
 int command_line(int argc, char** argv) {
@@ -232,6 +259,9 @@ int command_line(int argc, char** argv) {
                         "run scenarios/default.toml --method sdem --out results/sdem");
     run_options(*run, a);
     run->add_option("--method", a.method, "sdem, bpm, rigid_dem or mpm")->required();
+    run->add_option("--checkpoint-period", a.checkpoint_period, "wall time between two checkpoints [s]")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
 
     CLI::App* compare_app =
         add("compare", "run a scenario with several methods from one initial packing", compare_command,

@@ -9,6 +9,7 @@
 #include "app/run_folder.hpp"
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/folder_lock.hpp"
 #include "common/io/history_csv.hpp"
 #include "common/packing/make_packing.hpp"
 #include "common/run_state.hpp"
@@ -91,6 +92,8 @@ int probe_fan(const ProbeFanRequest& request) {
     Scenario before = scenario;
     before.loading.pop_back();
 
+    make_directories(request.folder);
+    const FolderLock lock(request.folder);
     const Packing packing = make_packing(scenario);
     std::vector<Fan> fans;
     int worst = 0;

@@ -11,9 +11,10 @@
 #include "app/progress.hpp"
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/checkpoint_ring.hpp"
+#include "common/io/folder_lock.hpp"
 #include "common/io/history_csv.hpp"
 #include "common/io/measure_files.hpp"
-#include "common/io/run_file.hpp"
 #include "common/time_loop.hpp"
 #include "version.hpp"
 #include "viz/paraview/view_script.hpp"
@@ -28,6 +29,14 @@ struct Clocks {
     double wall = wall_clock();
     double cpu = cpu_clock();
 };
+
+/// As 16 hexadecimal digits each.
+std::vector<std::string> in_digits(const std::vector<std::int64_t>& hashes) {
+    std::vector<std::string> digits;
+    for (const std::int64_t hash : hashes)
+        digits.push_back(fmt::format("{:016x}", static_cast<std::uint64_t>(hash)));
+    return digits;
+}
 
 void write_report(const RunRequest& request, const RunReport& report, const RunState& state) {
     const json text{
@@ -51,35 +60,56 @@ void write_report(const RunRequest& request, const RunReport& report, const RunS
         {"peak_memory", report.peak_memory},
         {"samples", state.history.size()},
         {"frames", state.frame_times.size()},
+        {"warnings", report.warnings},
+        {"state_hashes", in_digits(state.state_hashes)},
     };
     write_file_atomically(request.folder / "run.json", text.dump(2) + "\n");
 }
 
-/// An unfinished or finished run of the same scenario, or nothing.
+/// The last checkpoint of an unfinished or finished run of the same scenario, or nothing.
 std::optional<RunFile> earlier_run(const RunRequest& request, const std::string& scenario_text) {
-    const auto path = request.folder / "run.h5";
-    const bool there =
-        std::filesystem::exists(path) || std::filesystem::exists(request.folder / "history.csv");
-    if (!there) return std::nullopt;
-    if (request.force && !request.resume) return std::nullopt;
-    if (!request.resume)
-        throw InputError(fmt::format(
-            "{}: holds results already; go on with --resume, replace them with --force, or choose "
-            "another --out",
-            request.folder.string()));
-    if (!std::filesystem::exists(path)) return std::nullopt;  // stopped before its first checkpoint
-    RunFile file = read_run_file(path);
-    if (file.method != request.method.name || file.scenario != scenario_text)
+    if (!request.resume) {
+        if (!request.force) refuse_to_overwrite(request.folder);
+        return std::nullopt;
+    }
+    if (!has_checkpoint(request.folder)) return std::nullopt;  // stopped before its first one
+    FoundCheckpoint found = read_checkpoint(request.folder);
+    if (found.file.method != request.method.name || found.file.scenario != scenario_text)
         throw InputError(fmt::format(
             "{}: was made by another {}; --resume needs the same scenario and overrides (compare with {})",
-            path.string(), file.method != request.method.name ? "method" : "scenario",
+            found.path.string(), found.file.method != request.method.name ? "method" : "scenario",
             (request.folder / "scenario.toml").string()));
-    return file;
+    if (!found.said.empty()) {
+        fmt::print(stderr, "{}; going on from {}, step {}\n", found.said, found.path.filename().string(),
+                   found.file.state.step);
+        put_damaged_checkpoint_aside(request.folder);
+    }
+    return std::move(found.file);
+}
+
+/// What an earlier run left must not be taken for this one's.
+void remove_results(const std::filesystem::path& folder) {
+    std::filesystem::remove(folder / "run.json");
+    for (const char* not_always_written : {"contacts.pvd", "parts.pvd", "part_contacts.pvd"})
+        std::filesystem::remove(folder / not_always_written);
+    std::filesystem::remove_all(folder / "measures");
+    remove_checkpoints(folder);
 }
 
 }  // namespace
 
+void refuse_to_overwrite(const std::filesystem::path& folder) {
+    if (!has_checkpoint(folder) && !std::filesystem::exists(folder / "history.csv")) return;
+    throw InputError(
+        fmt::format("{}: holds results already; go on with --resume, replace them with --force, or choose "
+                    "another --out",
+                    folder.string()));
+}
+
 RunReport run_into_folder(const RunRequest& request) {
+    const bool folder_is_new = !std::filesystem::exists(request.folder);
+    make_directories(request.folder);
+    const FolderLock lock(request.folder);
     const Scenario scenario = scenario_for(request.scenario, request.method);
     const std::string scenario_text = write_scenario(request.scenario, method_keys());
     std::optional<RunFile> earlier = earlier_run(request, scenario_text);
@@ -101,10 +131,10 @@ RunReport run_into_folder(const RunRequest& request) {
     } catch (const InputError& error) {
         report.exit_code = 2;
         report.ended = fmt::format("cannot run this scenario: {}", error.what());
+        if (folder_is_new) std::filesystem::remove(request.folder);
         return report;
     }
 
-    make_directories(request.folder);
     RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};
     std::optional<RunFile> before;
     if (earlier) {
@@ -112,15 +142,10 @@ RunReport run_into_folder(const RunRequest& request) {
         solver->load(file.solver);
     } else {
         if (!request.from.empty()) {
-            before = read_run_file(request.from / "run.h5");
+            before = read_checkpoint(request.from).file;
             solver->load(before->solver);
         }
-        // What an earlier run left must not be taken for this one's.
-        std::filesystem::remove(request.folder / "run.h5");
-        std::filesystem::remove(request.folder / "run.json");
-        for (const char* not_always_written : {"contacts.pvd", "parts.pvd", "part_contacts.pvd"})
-            std::filesystem::remove(request.folder / not_always_written);
-        std::filesystem::remove_all(request.folder / "measures");
+        remove_results(request.folder);
         write_file_atomically(request.folder / "scenario.toml", scenario_text);
     }
 
@@ -150,7 +175,7 @@ RunReport run_into_folder(const RunRequest& request) {
         solver->save(file.solver);
         file.wall_time = wall_before + wall_clock() - begin.wall;
         file.cpu_time = cpu_before + cpu_clock() - begin.cpu;
-        write_run_file(request.folder / "run.h5", file);
+        write_checkpoint(request.folder, file);
     };
 
     Progress progress(std::string(request.method.name), stderr_is_terminal());
@@ -182,6 +207,7 @@ RunReport run_into_folder(const RunRequest& request) {
     report.simulated_time = run.state().time;
     report.wall_time = wall_before + wall_clock() - begin.wall;
     report.cpu_time = cpu_before + cpu_clock() - begin.cpu;
+    report.warnings = warnings_of(run.state().watch, scenario.watch);
     report.peak_memory = static_cast<double>(peak_memory());
     report.finished = date_and_time();
     write_report(request, report, run.state());
@@ -209,6 +235,9 @@ RunReport read_report(const std::filesystem::path& folder) {
         report.threads = text.at("threads");
         report.processor = text.value("processor", "");
         report.finished = text.value("finished", "");
+        report.warnings = text.value("warnings", std::vector<std::string>());
+        const auto hashes = text.value("state_hashes", std::vector<std::string>());
+        if (!hashes.empty()) report.last_state_hash = hashes.back();
         return report;
     } catch (const json::exception& error) {
         throw InputError(fmt::format("{}: damaged: {}", path.string(), error.what()));

@@ -31,15 +31,20 @@ struct RunReport {
     int exit_code = 0;
     std::size_t grains = 0;
     long long steps = 0;
-    double simulated_time = 0.0;  ///< [s]
-    double wall_time = 0.0;       ///< [s], before and after a resume
-    double cpu_time = 0.0;        ///< [s]
-    double peak_memory = 0.0;     ///< [bytes]
-    std::string version, commit;  ///< of softgrain
-    int threads = 1;              ///< most that were used
-    std::string processor;        ///< "2 x NAME"; empty if unknown
-    std::string finished;         ///< date and time in UTC; empty if unknown
+    double simulated_time = 0.0;        ///< [s]
+    double wall_time = 0.0;             ///< [s], before and after a resume
+    double cpu_time = 0.0;              ///< [s]
+    double peak_memory = 0.0;           ///< [bytes]
+    std::string version, commit;        ///< of softgrain
+    int threads = 1;                    ///< most that were used
+    std::string processor;              ///< "2 x NAME"; empty if unknown
+    std::string finished;               ///< date and time in UTC; empty if unknown
+    std::vector<std::string> warnings;  ///< of the watch, one line for each limit that was broken
+    std::string last_state_hash;  ///< state_hash() of the last sample in hexadecimal digits; empty if unknown
 };
+
+/// Throws InputError if the folder holds results of a run.
+void refuse_to_overwrite(const std::filesystem::path& folder);
 
 /// Runs and writes. Divergence, signals and a scenario that the method refuses (exit_code 2, nothing written)
 /// are reported, not thrown. Throws InputError about the folder, and OutputError.

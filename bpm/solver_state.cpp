@@ -31,7 +31,7 @@ void BpmSolver::save(Checkpoint& to) const {
     to.put("bpm.rim_speed", std::span<const double>(rim_speed_));
     to.put("bpm.box", std::span<const double>(box_.position));
     to.put("bpm.wall_force", std::span<const Vec2>(wall_force_));
-    const std::array<double, 13> scalars{time_,
+    const std::array<double, 14> scalars{time_,
                                          last_step_,
                                          potential_at_start_,
                                          penetration_,
@@ -43,7 +43,8 @@ void BpmSolver::save(Checkpoint& to) const {
                                          energy_.damping,
                                          energy_.plastic,
                                          static_cast<double>(steps_),
-                                         static_cast<double>(unconverged_steps_)};
+                                         static_cast<double>(unconverged_steps_),
+                                         contact_result_.sweeps};
     to.put("bpm.scalars", std::span<const double>(scalars));
     to.put("bpm.converged", contact_result_.converged ? 1.0 : 0.0);
     attraction_.save(to, "bpm.attraction.");
@@ -69,7 +70,7 @@ void BpmSolver::load(const Checkpoint& from) {
     const bool fits = radius.size() == radius_.size() && x.size() == x_.size() &&
                       x_start.size() == x_.size() && v.size() == v_.size() &&
                       rim_speed.size() == rim_speed_.size() && box.size() == 4 && wall_force.size() == 4 &&
-                      scalars.size() == 13 &&
+                      scalars.size() == 14 &&
                       std::equal(radius.begin(), radius.end(), radius_.begin(),
                                  [](double a, double b) { return std::abs(a - b) <= same_radius * b; });
     if (!fits)
@@ -89,6 +90,7 @@ void BpmSolver::load(const Checkpoint& from) {
     energy_.friction = scalars[5];
     energy_.impact = scalars[6];
     contact_result_ = {.iterations = static_cast<int>(scalars[7]),
+                       .sweeps = scalars[13],
                        .residual = scalars[8],
                        .converged = from.number("bpm.converged") != 0.0};
     energy_.damping = scalars[9];

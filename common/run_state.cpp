@@ -34,10 +34,12 @@ void RunState::save(Checkpoint& to) const {
     std::vector<double> flat;
     for (const auto& row : history) flat.insert(flat.end(), row.begin(), row.end());
     to.put("history", flat);
+    to.put("state_hashes", state_hashes);
     to.put("history_columns", history_columns());
     to.put("most_strain", most_strain);
     to.put("stage_stress", std::span<const double>(stage_stress));
     servo.save(to);
+    watch.save(to);
     to.put("ended", std::vector<int>(ended.begin(), ended.end()));
 }
 
@@ -93,10 +95,12 @@ void RunState::load(const Checkpoint& from) {
     for (std::size_t k = 0; k + columns <= values.size(); k += columns)
         history.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(k),
                              values.begin() + static_cast<std::ptrdiff_t>(k + columns));
+    from.get("state_hashes", state_hashes);
     most_strain = from.number("most_strain");
     from.get("stage_stress", values);
     for (std::size_t a = 0; a < 2; ++a) stage_stress[a] = values.at(a);
     servo.load(from);
+    watch.load(from);
     from.get("ended", letters);
     ended.assign(letters.begin(), letters.end());
 }

@@ -1,12 +1,14 @@
 #pragma once
 // All that the time loop remembers.
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/box.hpp"
 #include "common/checkpoint.hpp"
 #include "common/servo.hpp"
+#include "common/watch.hpp"
 
 namespace softgrain {
 
@@ -36,7 +38,9 @@ struct RunState {
     Mat2 mean_cell_stress = Mat2::Zero();          ///< the same, of a periodic cell [N/m]
     double rate = 0.0;                             ///< StageDriver::rate of the last step [1/s]
     ServoState servo;
+    WatchState watch;
     std::vector<std::vector<double>> history;  ///< a row per sample, columns as the table of observables
+    std::vector<std::int64_t> state_hashes;    ///< state_hash() of each sample, its bits
     std::vector<double> frame_times;           ///< [s]
     std::string ended;                         ///< why the run is over; empty while it is not
 

@@ -163,6 +163,17 @@ struct Sampling {
         {};  ///< between two rows of a hold [s]; without it a tenth of the hold
 };
 
+/// What is looked at at every sample (common/watch.hpp). A limit that is not given is not watched.
+struct Watch {
+    bool stop = false;  ///< a broken limit ends the run (exit 3); else it is written as a warning
+    std::optional<double> energy_residual = {};  ///< largest |energy_residual| / energy that was put in
+    std::optional<double> momentum =
+        {};  ///< largest |momentum - impulses| / sum of |impulses|, since the last sample
+    std::optional<double> penetration = {};    ///< largest contact_penetration / mean diameter
+    std::optional<double> unconverged = {};    ///< largest share of the steps since the last sample
+    std::optional<double> lost_contacts = {};  ///< most pairs of grains that must touch and have no contact
+};
+
 struct Scenario {
     std::string title;
     std::uint64_t seed = 1;
@@ -173,6 +184,7 @@ struct Scenario {
     BoxSpec box;
     std::vector<LoadingStage> loading;
     Sampling sampling;
+    Watch watch;
     std::map<std::string, Settings, std::less<>> method_settings;  ///< by method name
     std::filesystem::path source;                                  ///< file it was read from, for messages
 

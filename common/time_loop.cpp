@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/errors.hpp"
 #include "common/observables/observable.hpp"
 #include "common/observables/stress.hpp"
+#include "common/state_hash.hpp"
 
 namespace softgrain {
 namespace {
@@ -43,6 +45,7 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
       observers_(std::move(observers)),
       order_(stage_order(scenario.loading)),
       grains_(grains_of(scenario, packing, solver)),
+      watchdog_(scenario.watch, packing, grains_.mean_diameter),
       checks_before_window_(static_cast<int>(std::lround(
           checks_per_sample * (1.0 - std::max(scenario.sampling.average_window, 1.0 / checks_per_sample))))) {
     state_.box = state_.initial_box = packing.box;
@@ -57,7 +60,9 @@ void TimeLoop::resume(const RunState& state) {
 void TimeLoop::branch(const RunState& state) {
     state_ = state;
     state_.ended.clear();
+    state_.watch = {};
     state_.history.clear();
+    state_.state_hashes.clear();
     state_.frame_times.clear();
     begin_stage(state_.stage + 1);
     sample(driver_.front(), false);
@@ -128,7 +133,9 @@ void TimeLoop::step(const StageDriver& driver) {
     const double dt = remaining / std::max(1.0, std::ceil(remaining / solver_.stable_time_step()));
 
     const WallMotion motion = driver.motion(state_.box, state_.rate, state_.servo, dt);
+    const std::array<Vec2, 4> force_before = solver_.wall_force();
     solver_.advance(motion, dt);
+    watchdog_.add_step(state_.watch, force_before, solver_.wall_force(), dt);
     state_.box = motion.after(dt);
     state_.time += dt;
     state_.stage_time += dt;
@@ -180,12 +187,14 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
     sample.step = state_.step;
     sample.loading = loading_done();
 
-    Need need = Need::base;
+    Need need = hashed;
     for (const Observable& o : observables()) need = need | o.need;
     for (const Observer* observer : observers_) need = need | observer->need(sample);
     solver_.check_finite();
     const GrainView view = solver_.view(need);
 
+    const std::vector<BrokenLimit> broken =
+        watchdog_.check(state_.watch, view, state_.initial_energy, static_cast<double>(state_.step));
     const Frame frame{view,
                       state_.initial_box,
                       driver.axial_strain(state_.box),
@@ -195,13 +204,18 @@ void TimeLoop::sample(const StageDriver& driver, bool last) {
                       state_.mean_force,
                       state_.mean_cell_stress,
                       state_.step,
-                      state_.stage};
+                      state_.stage,
+                      state_.watch.all_broken()};
     std::vector<double> row;
     for (const Observable& o : observables()) row.push_back(o.measure(frame));
     state_.history.push_back(row);
+    state_.state_hashes.push_back(static_cast<std::int64_t>(state_hash(view)));
     sample.row = state_.history.back();
     if (sample.is_frame) state_.frame_times.push_back(state_.time);
     for (Observer* observer : observers_) observer->observe(view, sample);
+    if (scenario_.watch.stop && !broken.empty())
+        throw DivergedError(-1, std::string(watch_limits[broken.front().limit]), state_.time,
+                            broken.front().why);
 }
 
 Mat2 TimeLoop::mean_boundary_stress() const {

@@ -26,8 +26,8 @@ class TimeLoop {
     void branch(const RunState& state);
 
     /// Runs until the loading is done, the method leaves its validity (see state().ended), or `stop` becomes
-    /// non-zero. `after_step` is called after every step. Throws DivergedError, OutputError, and
-    /// InputError if a stage turns out to begin beyond its end.
+    /// non-zero. `after_step` is called after every step. Throws DivergedError, also of a limit of [watch]
+    /// that is to stop the run, OutputError, and InputError if a stage turns out to begin beyond its end.
     void go(
         const std::atomic<int>& stop, const std::function<void()>& after_step = [] {});
 
@@ -54,6 +54,7 @@ class TimeLoop {
     std::vector<Observer*> observers_;
     std::vector<std::size_t> order_;  ///< of the stages, repeats written out
     Grains grains_;
+    Watchdog watchdog_;
     int checks_before_window_ = 0;  ///< of a sample interval; the mean of the stresses is over the rest
     RunState state_;
     std::vector<StageDriver> driver_;  ///< the present stage's, one or none

@@ -53,6 +53,8 @@ std::vector<std::string> limits(const MethodResult& result, const Scenario& scen
                                           result.report.ended)
                             : result.report.ended);
     if (!result.history || result.history->rows() == 0) return lines;
+    for (const std::string& warning : result.report.warnings)
+        lines.push_back(fmt::format("Warning: {}.", warning));
     if (const auto names = columns_without_numbers(*result.history); !names.empty())
         lines.push_back(fmt::format("Columns of the history without a number: {}.", listed(names)));
     const double unconverged = result.history->column("unconverged_steps").back();

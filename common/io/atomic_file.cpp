@@ -15,7 +15,9 @@ namespace softgrain {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view action, int error) {
-    throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
+    const std::string_view cure = cure_of(error);
+    throw OutputError(fmt::format("{}: cannot {}: {}{}{}", path.string(), action, std::strerror(error),
+                                  cure.empty() ? "" : "; ", cure));
 }
 
 /// A descriptor that is closed, and its file removed, unless the write is completed.
@@ -40,11 +42,14 @@ class FileAside {
             bytes.remove_prefix(static_cast<std::size_t>(written));
         }
     }
-    void rename_to(const std::filesystem::path& target) {
+    void flush() {
         if (::fsync(descriptor_) != 0) fail(name_, "flush to the disk", errno);
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
         if (closed != 0) fail(name_, "close", errno);
+    }
+    /// Of a file that was flushed.
+    void rename_to(const std::filesystem::path& target) {
         if (::rename(path_.c_str(), target.c_str()) != 0) fail(name_, "rename", errno);
         completed_ = true;
     }
@@ -68,10 +73,33 @@ void flush_directory(const std::filesystem::path& directory) {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+std::string_view cure_of(int error) {
+    switch (error) {
+        case ENOSPC:
+            return "make room on the disk";
+        case EDQUOT:
+            return "make room within your quota";
+        case EFBIG:
+            return "allow larger files (ulimit -f)";
+        case EROFS:
+        case EACCES:
+        case EPERM:
+            return "choose a folder that can be written";
+        case ENOENT:
+            return "the folder was removed or never there";
+        default:
+            return "";
+    }
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           const std::filesystem::path& old_file_to) {
     const std::filesystem::path aside = path.string() + ".part";
     FileAside file(aside, path.string());
     file.write(bytes);
+    file.flush();
+    if (!old_file_to.empty() && ::rename(path.c_str(), old_file_to.c_str()) != 0 && errno != ENOENT)
+        fail(path, "rename", errno);
     file.rename_to(path);
     flush_directory(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
 }
@@ -81,8 +109,10 @@ void make_directories(const std::filesystem::path& path) {
     std::filesystem::create_directories(path, error);
     if (!error && !std::filesystem::is_directory(path, error))
         error = std::make_error_code(std::errc::not_a_directory);
-    if (error)
-        throw OutputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));
+    if (!error) return;
+    const std::string_view cure = cure_of(error.value());
+    throw OutputError(fmt::format("{}: cannot make the folder: {}{}{}", path.string(), error.message(),
+                                  cure.empty() ? "" : "; ", cure));
 }
 
 }  // namespace softgrain

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 #include "common/errors.hpp"
@@ -40,7 +42,11 @@ HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<std::
 
 void HistoryWriter::observe(const GrainView&, const Sample& sample) {
     file_ << line_of(sample.row) << std::flush;
-    if (!file_) throw OutputError(fmt::format("{}: cannot append a row (is the disk full?)", path_.string()));
+    if (file_) return;
+    const int error = errno;
+    const std::string_view cure = cure_of(error);
+    throw OutputError(fmt::format("{}: cannot append a row: {}{}{}", path_.string(), std::strerror(error),
+                                  cure.empty() ? "" : "; ", cure));
 }
 
 const std::vector<double>& History::column(std::string_view name) const {

@@ -3,7 +3,10 @@
 #include <H5Cpp.h>
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
+#include <algorithm>
+#include <fstream>
+
+#include "common/hash.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/observables/observable.hpp"
 
@@ -31,9 +34,15 @@ void write_array(const H5::Group& group, const std::string& name, const std::vec
     if (size > 0) set.write(values.data(), type_of(first));
 }
 
+/// Arrays are stored as they are, so none is larger than the file: told before memory is asked for.
 template <class T>
 std::vector<T> read_array(const H5::DataSet& set) {
-    std::vector<T> values(static_cast<std::size_t>(set.getSpace().getSimpleExtentNpoints()));
+    const hssize_t size = set.getSpace().getSimpleExtentNpoints();
+    hsize_t file_size = 0;
+    H5Fget_filesize(H5Iget_file_id(set.getId()), &file_size);
+    if (size < 0 || static_cast<hsize_t>(size) > file_size / sizeof(T))
+        throw H5::DataSetIException("read_array", "an array is larger than the file");
+    std::vector<T> values(static_cast<std::size_t>(size));
     const T* first = nullptr;
     if (!values.empty()) set.read(values.data(), type_of(first));
     return values;
@@ -84,8 +93,23 @@ void write_history(const H5::Group& group, const std::vector<std::vector<double>
     }
 }
 
+constexpr std::string_view head_start = "softgrain run file, format ";
+constexpr std::size_t head_size = 512;  ///< a place where HDF5 looks for the begin of a file
+constexpr std::string_view hdf5_start = "\x89HDF\r\n";
+
+/// The same for every format, so that a later one is told from a damaged file.
+std::string head_of(std::string_view image, std::string_view format) {
+    Hash hash;
+    hash.add(format);
+    hash.add(image);
+    std::string head = fmt::format("{}{}\n{} bytes follow this head of {}, with the checksum {:016x}\n",
+                                   head_start, format, image.size(), head_size, hash.value());
+    head.resize(head_size, '\0');
+    return head;
+}
+
 /// The file as bytes: HDF5 builds it in memory, because it cannot be trusted on a disk that is full.
-std::string file_image(const RunFile& content) {
+std::string file_bytes(const RunFile& content) {
     H5::FileAccPropList in_memory;
     in_memory.setCore(1U << 20U, false);
     const H5::H5File file("run", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
@@ -101,18 +125,53 @@ std::string file_image(const RunFile& content) {
     write_checkpoint(checkpoint.createGroup("solver"), content.solver);
     file.flush(H5F_SCOPE_GLOBAL);
     const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
-    std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
-    if (size < 0 || H5Fget_file_image(file.getId(), bytes.data(), bytes.size()) != size)
-        throw H5::FileIException("file_image", "H5Fget_file_image failed");
+    std::string bytes(head_size + static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+    char* const image = bytes.data() + head_size;
+    if (size < 0 || H5Fget_file_image(file.getId(), image, bytes.size() - head_size) != size)
+        throw H5::FileIException("file_bytes", "H5Fget_file_image failed");
+    bytes.replace(0, head_size, head_of({image, bytes.size() - head_size}, std::to_string(run_file_format)));
     return bytes;
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || !std::filesystem::is_regular_file(path))
+        throw InputError(fmt::format("{}: there is no such run file", path.string()));
+    std::string bytes(std::filesystem::file_size(path), '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file) throw DamagedFileError(fmt::format("{}: reading stopped early", path.string()));
+    return bytes;
+}
+
+/// Before HDF5 sees the file, which is not safe against files that are not its own.
+void check_head(const std::filesystem::path& path) {
+    const std::string bytes = bytes_of(path);
+    const std::string_view whole = bytes;
+    std::string format;
+    if (whole.starts_with(hdf5_start)) {
+        format = "1";
+    } else if (whole.size() >= head_size && whole.starts_with(head_start)) {
+        const std::string_view number = whole.substr(head_start.size(), head_size);
+        format = number.substr(0, std::min(number.find('\n'), std::size_t{6}));
+        if (head_of(whole.substr(head_size), format) != whole.substr(0, head_size)) format.clear();
+    }
+    if (format.empty())
+        throw DamagedFileError(
+            fmt::format("{}: damaged, its size or its checksum is not what was written", path.string()));
+    if (format != std::to_string(run_file_format))
+        throw InputError(fmt::format(
+            "{}: is of format {}, this program knows {}; go on with the version of softgrain that "
+            "wrote it, or start anew with --force",
+            path.string(), format, run_file_format));
 }
 
 }  // namespace
 
-void write_run_file(const std::filesystem::path& path, const RunFile& content) {
+void write_run_file(const std::filesystem::path& path, const RunFile& content,
+                    const std::filesystem::path& old_file_to) {
     H5::Exception::dontPrint();
     try {
-        write_file_atomically(path, file_image(content));
+        write_file_atomically(path, file_bytes(content), old_file_to);
     } catch (const H5::Exception& error) {
         throw OutputError(fmt::format("{}: cannot make it: {}", path.string(), error.getDetailMsg()));
     }
@@ -120,6 +179,7 @@ void write_run_file(const std::filesystem::path& path, const RunFile& content) {
 
 RunFile read_run_file(const std::filesystem::path& path) {
     H5::Exception::dontPrint();
+    check_head(path);
     try {
         const H5::H5File file(path.string(), H5F_ACC_RDONLY);
         RunFile content;

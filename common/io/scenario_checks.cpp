@@ -73,7 +73,25 @@ void check_packing_file(const CheckedTable& packing, const CheckedTable& box,
                    fmt::format("names a file that is not there: '{}'", file.string()));
 }
 
+bool lies_within(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    const auto from_there = file.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+    return !from_there.empty() && *from_there.begin() != "..";
+}
+
 }  // namespace
+
+void check_inside(const CheckedTable& packing, const std::filesystem::path& folder, ErrorList& errors) {
+    if (!packing.has("path") || !packing.sound({"path"})) return;
+    const Place& place = packing.place_of("path");
+    if (!place.option.empty() || std::filesystem::path(packing.settings.text("path")).is_absolute()) return;
+    const auto file = packing_file(packing, folder);
+    if (lies_within(file, folder) || lies_within(file, std::filesystem::current_path())) return;
+    errors.add(
+        place, packing.full("path"),
+        fmt::format("leads out of the scenario's folder and of the current one, to '{}': run it from a "
+                    "folder above both, or allow it with --allow-outside",
+                    file.string()));
+}
 
 void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
                    ErrorList& errors) {

@@ -12,6 +12,8 @@ namespace softgrain::scenario_io {
 /// `folder` is the one that a relative packing.path starts from.
 void check_packing(const CheckedTable& packing, const CheckedTable& box, const std::filesystem::path& folder,
                    ErrorList& errors);
+/// A relative packing.path of the file leads to no place outside its folder and the current one.
+void check_inside(const CheckedTable& packing, const std::filesystem::path& folder, ErrorList& errors);
 /// One of the stages; `box` tells whether there are walls or a periodic cell.
 void check_stage(std::span<const CheckedTable> stages, std::size_t number, const CheckedTable& box,
                  ErrorList& errors);

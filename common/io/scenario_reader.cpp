@@ -75,12 +75,21 @@ Sampling sampling_of(const Settings& s) {
             optional_number(s, "time_interval")};
 }
 
+Watch watch_of(const Settings& s) {
+    return {position_in(watch_action_names, s.text("action")) == 1,
+            optional_number(s, "energy_residual"),
+            optional_number(s, "momentum"),
+            optional_number(s, "penetration"),
+            optional_number(s, "unconverged"),
+            optional_number(s, "lost_contacts")};
+}
+
 /// Reads one document: checks every table, remembers every error.
 class Reader {
   public:
     Reader(const Node& document, const std::filesystem::path& source, std::span<const MethodKeys> methods,
-           ErrorList& errors)
-        : document_(document), source_(source), methods_(methods), errors_(errors) {
+           NamedFiles files, ErrorList& errors)
+        : document_(document), source_(source), methods_(methods), files_(files), errors_(errors) {
         for (const TableSpec& table : core_tables()) tables_.push_back(table);
         for (const MethodKeys& method : methods)
             tables_.push_back({.name = method.name, .help = "", .keys = method.keys});
@@ -99,6 +108,7 @@ class Reader {
         const CheckedTable box = table("box");
         const std::filesystem::path folder = source_.parent_path();
         check_packing(packing, box, folder, errors_);
+        if (files_ == NamedFiles::inside) check_inside(packing, folder, errors_);
         check_region(packing, box, errors_);
         scenario.packing = packing_of(packing, folder);
         scenario.packing.region = region_of(packing.settings, box.settings);
@@ -115,6 +125,7 @@ class Reader {
         const CheckedTable sampling = table("sampling");
         check_sampling(sampling, errors_);
         scenario.sampling = sampling_of(sampling.settings);
+        scenario.watch = watch_of(table("watch").settings);
         for (const MethodKeys& method : methods_)
             scenario.method_settings.emplace(method.name, method_settings(method));
         return scenario;
@@ -239,6 +250,7 @@ class Reader {
     const Node& document_;
     const std::filesystem::path& source_;
     std::span<const MethodKeys> methods_;
+    NamedFiles files_;
     ErrorList& errors_;
     std::vector<TableSpec> tables_;
 };
@@ -246,18 +258,19 @@ class Reader {
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name,
-                        std::span<const std::string> overrides, std::span<const MethodKeys> methods) {
+                        std::span<const std::string> overrides, std::span<const MethodKeys> methods,
+                        NamedFiles files) {
     Node document = parse_document(text, name.string());
     ErrorList errors(name.string());
     apply_overrides(document, overrides, errors);
-    Scenario scenario = Reader(document, name, methods, errors).read();
+    Scenario scenario = Reader(document, name, methods, files, errors).read();
     errors.throw_if_any();
     return scenario;
 }
 
 Scenario read_scenario(const std::filesystem::path& path, std::span<const std::string> overrides,
-                       std::span<const MethodKeys> methods) {
-    return parse_scenario(read_document(path, "scenario"), path, overrides, methods);
+                       std::span<const MethodKeys> methods, NamedFiles files) {
+    return parse_scenario(read_document(path, "scenario"), path, overrides, methods, files);
 }
 
 }  // namespace softgrain

@@ -215,7 +215,29 @@ const std::vector<KeySpec> sampling_keys{
      "last frame in triangles between centres), parted by commas"},
 };
 
-const std::array<TableSpec, 9> tables{{
+const std::vector<KeySpec> watch_keys{
+    {"action", text, Value(std::string(watch_action_names[0])), "",
+     "what a broken limit does: warn in history.csv, run.json and the report, or stop the run (exit code 3)",
+     any_number, words(watch_action_names)},
+    {"energy_residual", number, Value(), "",
+     "largest |energy_residual| / energy put in: initial energy and the largest |external_work|", positive},
+    {"momentum", number, Value(), "",
+     "largest |change of momentum - impulses of walls and weights| / sum of the |impulses|, since the last "
+     "sample; of "
+     "a box with walls, without driven grains, where grains move by their inertia and no global damping",
+     positive},
+    {"penetration", number, Value(), "", "largest contact_penetration / mean grain diameter (bpm, mpm)",
+     positive},
+    {"unconverged", number, Value(), "",
+     "largest share of unconverged steps since the last sample (bpm, mpm)", not_negative},
+    {"lost_contacts", number, Value(), "",
+     "most pairs of grains with no contact whose centroids are closer than 0.6 of the sum of their radii (of "
+     "the "
+     "discs within ellipses; not of clumps)",
+     not_negative},
+};
+
+const std::array<TableSpec, 10> tables{{
     {"", "", top_keys},
     {"random", "Random numbers.", random_keys},
     {"material", "The grains' material, plane strain, per unit thickness.", material_keys},
@@ -229,6 +251,7 @@ const std::array<TableSpec, 9> tables{{
     {"loading", "A stage of the loading; the first `until_...` that is reached ends it, or its duration.",
      loading_keys, true},
     {"sampling", "What is written, and how often.", sampling_keys},
+    {"watch", "Limits that are looked at at every sample; one that is not given is not watched.", watch_keys},
 }};
 
 }  // namespace

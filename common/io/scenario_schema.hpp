@@ -19,6 +19,7 @@ inline constexpr std::array<std::string_view, 10> loading_kind_names{
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 2> region_names{"disc", "rectangle"};
 inline constexpr std::array<std::string_view, 2> driven_kind_names{"ring", "row"};
+inline constexpr std::array<std::string_view, 2> watch_action_names{"warn", "stop"};
 
 struct TableSpec {
     std::string_view name;  ///< "" for the keys before the first table

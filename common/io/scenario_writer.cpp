@@ -113,6 +113,17 @@ Settings settings_of(const Sampling& sampling) {
     return s;
 }
 
+Settings settings_of(const Watch& watch) {
+    Settings s;
+    s.set("action", std::string(watch_action_names[watch.stop ? 1 : 0]));
+    set_optional(s, "energy_residual", watch.energy_residual);
+    set_optional(s, "momentum", watch.momentum);
+    set_optional(s, "penetration", watch.penetration);
+    set_optional(s, "unconverged", watch.unconverged);
+    set_optional(s, "lost_contacts", watch.lost_contacts);
+    return s;
+}
+
 /// One entry for each time that the table is written.
 std::vector<Settings> contents(const Scenario& scenario, std::string_view table) {
     Settings s;
@@ -128,6 +139,7 @@ std::vector<Settings> contents(const Scenario& scenario, std::string_view table)
         s.set("gravity_y", scenario.box.gravity.y());
     }
     if (table == "sampling") return {settings_of(scenario.sampling)};
+    if (table == "watch") return {settings_of(scenario.watch)};
     const auto each = [](const auto& entries) {
         std::vector<Settings> all;
         for (const auto& entry : entries) all.push_back(settings_of(entry));

@@ -18,7 +18,8 @@ struct Frame {
     std::array<Vec2, 4> wall_force;  ///< mean since the last check of the loop [N]
     Mat2 cell_stress;                ///< the same, of a periodic cell; zero with walls [N/m]
     long long step;
-    int stage = 0;  ///< of the loading, in the order of the run
+    int stage = 0;          ///< of the loading, in the order of the run
+    double warnings = 0.0;  ///< limits of [watch] broken at this and all earlier samples
 };
 
 struct Observable {

@@ -109,6 +109,7 @@ constexpr std::array table{
                [](const Frame& f) { return fabric(f.view).anisotropy; }},
     Observable{"fabric_angle", "rad", N::contacts, [](const Frame& f) { return fabric(f.view).angle; }},
     Observable{"stage", "", N::base, [](const Frame& f) { return static_cast<double>(f.stage + 1); }},
+    Observable{"warnings", "", N::base, [](const Frame& f) { return f.warnings; }},
 };
 
 }  // namespace

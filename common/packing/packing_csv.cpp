@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/errors.hpp"
+#include "common/io/atomic_file.hpp"
 #include "common/neighbors.hpp"
 #include "common/packing/overlap.hpp"
 
@@ -240,10 +241,7 @@ void write_packing_csv(const std::filesystem::path& path, const Packing& packing
         if (has_angles) text += fmt::format(",{}", packing.angle[k]);
         text += '\n';
     }
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw OutputError(fmt::format("{}: cannot be written", path.string()));
+    write_file_atomically(path, text);
 }
 
 }  // namespace softgrain

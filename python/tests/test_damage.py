@@ -58,7 +58,7 @@ class Damage(unittest.TestCase):
     def test_history_with_rows_of_another_length_or_words(self):
         text = (self.folder / "history.csv").read_text()
         (self.folder / "history.csv").write_text(text.replace(",nan", "", 1))
-        self.refused("history.csv:2: 38 values, expected 39")
+        self.refused("history.csv:2: 39 values, expected 40")
         (self.folder / "history.csv").write_text(text.replace(",nan", ",", 1))
         self.refused("history.csv: column .*: could not convert string to float: ''")
         (self.folder / "history.csv").write_text(text.replace(",nan", ",fast", 1))
