@@ -1,7 +1,6 @@
 // The command line: reads arguments, calls one function for each command, turns errors into exit codes.
 #include <fmt/format.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
