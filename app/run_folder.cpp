@@ -107,11 +107,11 @@ void refuse_to_overwrite(const std::filesystem::path& folder) {
 }
 
 RunReport run_into_folder(const RunRequest& request) {
+    const Scenario scenario = scenario_for(request.scenario, request.method);
+    const std::string scenario_text = write_scenario(request.scenario, method_keys());
     const bool folder_is_new = !std::filesystem::exists(request.folder);
     make_directories(request.folder);
     const FolderLock lock(request.folder);
-    const Scenario scenario = scenario_for(request.scenario, request.method);
-    const std::string scenario_text = write_scenario(request.scenario, method_keys());
     std::optional<RunFile> earlier = earlier_run(request, scenario_text);
     RunReport report;
     report.method = request.method.name;

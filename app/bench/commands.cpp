@@ -87,15 +87,16 @@ void add_skip(CLI::App& bench, std::function<int()>& chosen) {
     CLI::App& command =
         add(bench, "skip", "instructions that options cost, unused and used, and that skipping saves",
             "unused saved");
-    command.prefix_command();
-    command.set_help_flag();
-    command.callback([&chosen, &command] {
-        chosen = [arguments = command.remaining()]() -> int {
+    const auto tables = std::make_shared<std::vector<std::string>>();
+    command.add_option("table", *tables, "what to count; all if none is named")
+        ->check(CLI::IsMember({"unused", "used", "saved", "written"}));
+    command.callback([&chosen, tables] {
+        chosen = [tables]() -> int {
             const std::string script = "bench/skip/skip.py";
             if (!std::filesystem::exists(script))
                 throw InputError(fmt::format(
                     "{}: not here; bench skip builds softgrain anew, start it in its source tree", script));
-            become(script, arguments);
+            become(script, *tables);
         };
     });
 }

@@ -74,7 +74,8 @@ void check_packing_file(const CheckedTable& packing, const CheckedTable& box,
 }
 
 bool lies_within(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    const auto from_there = file.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+    const auto whole = folder.empty() ? std::filesystem::current_path() : std::filesystem::absolute(folder);
+    const auto from_there = file.lexically_relative(whole.lexically_normal());
     return !from_there.empty() && *from_there.begin() != "..";
 }
 

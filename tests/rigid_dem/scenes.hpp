@@ -7,11 +7,12 @@
 
 namespace softgrain::rigid_dem {
 
-/// E = 1, restitution 1, overlap_limit 10, changed as told.
+/// E = 1, restitution 1, safety 0.5, overlap_limit 10, changed as told.
 inline Scenario scenario_with(const std::function<void(Scenario&, Settings&)>& change) {
     Scenario s;
     Settings table(method().keys());
     table.set("restitution", 1.0);
+    table.set("safety", 0.5);
     table.set("overlap_limit", 10.0);
     change(s, table);
     s.method_settings["rigid_dem"] = table;

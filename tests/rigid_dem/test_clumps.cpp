@@ -22,6 +22,7 @@ Scenario scenario_with(double friction, double restitution) {
     s.material.friction = friction;
     Settings table(method().keys());
     table.set("restitution", restitution);
+    table.set("safety", 0.5);
     s.method_settings["rigid_dem"] = table;
     return s;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "common/errors.hpp"
 #include "tests/rigid_dem/scenes.hpp"
@@ -92,6 +93,22 @@ TEST(RigidDem, StabilityLimitIsWhereItIsPredicted) {
     EXPECT_GT(speed_after(1.02 * limit), 4.0 * starting);
     RigidDem dem(elastic(), p);
     EXPECT_LE(dem.stable_time_step(), 0.5 * limit * (1.0 + 1e-12));
+}
+
+/// Undamped contacts that open and close gain energy from longer steps.
+TEST(RigidDem, TakesASmallerStepWhereNothingDamps) {
+    const auto step = [](double nonviscous, std::optional<double> safety) {
+        Scenario s;
+        Settings table(method().keys());
+        table.set("restitution", 1.0);
+        table.set("nonviscous_damping", nonviscous);
+        if (safety) table.set("safety", *safety);
+        s.method_settings["rigid_dem"] = table;
+        return RigidDem(s, two_discs(0.0)).stable_time_step();
+    };
+    EXPECT_NEAR(step(0.1, {}) / step(0.0, {}), 5.0, 1e-12);
+    EXPECT_NEAR(step(0.0, 0.3) / step(0.0, {}), 3.0, 1e-12);
+    EXPECT_NEAR(step(0.1, 0.3) / step(0.1, {}), 0.6, 1e-12);
 }
 
 /// Stiffness grows with the overlap: grains apart and at rest have none, but are about to.
