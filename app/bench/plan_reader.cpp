@@ -55,6 +55,18 @@ void PlanReader::needed(std::string_view name) {
         errors_.add({}, name, fmt::format("is missing: write at least one [[{}]]", name));
 }
 
+CheckedTable PlanReader::check(const Node* node, const std::string& name, const std::vector<KeySpec>& keys) {
+    std::vector<std::string_view> words;
+    for (const KeySpec& key : keys) words.push_back(key.name);
+    if (node != nullptr)
+        for (const Node& child : node->children) known(child, words);
+    return check_table(node, name, keys, errors_);
+}
+
+CheckedTable PlanReader::table(std::string_view name, const std::vector<KeySpec>& keys) {
+    return check(document_.find(name), std::string(name), keys);
+}
+
 std::vector<CheckedTable> PlanReader::tables(std::string_view name, const std::vector<KeySpec>& keys,
                                              std::initializer_list<std::string_view> required) {
     std::vector<CheckedTable> sound;
@@ -64,13 +76,10 @@ std::vector<CheckedTable> PlanReader::tables(std::string_view name, const std::v
         errors_.add(all->place, name, fmt::format("must be tables [[{}]], got {}", name, describe(*all)));
         return sound;
     }
-    std::vector<std::string_view> words;
-    for (const KeySpec& key : keys) words.push_back(key.name);
     for (std::size_t k = 0; k < all->children.size(); ++k) {
         const Node& node = all->children[k];
         const std::size_t before = errors_.size();
-        for (const Node& child : node.children) known(child, words);
-        CheckedTable table = check_table(&node, fmt::format("{}.{}", name, k), keys, errors_);
+        CheckedTable table = check(&node, fmt::format("{}.{}", name, k), keys);
         for (const std::string_view key : required)
             if (!table.has(key)) errors_.add(node.place, table.full(key), "is missing");
         if (errors_.size() == before) sound.push_back(std::move(table));

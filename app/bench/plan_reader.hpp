@@ -35,6 +35,8 @@ class PlanReader {
     /// The sound ones of [[name]]; `required` are keys that must be there.
     std::vector<CheckedTable> tables(std::string_view name, const std::vector<KeySpec>& keys,
                                      std::initializer_list<std::string_view> required);
+    /// The one table [name]; its defaults if it is not there.
+    CheckedTable table(std::string_view name, const std::vector<KeySpec>& keys);
     /// "" if it is not given.
     static std::string text(const CheckedTable& table, std::string_view key);
     /// A path, looked up from the plan's folder.
@@ -48,6 +50,8 @@ class PlanReader {
 
   private:
     void known(const scenario_io::Node& node, const std::vector<std::string_view>& words);
+    CheckedTable check(const scenario_io::Node* node, const std::string& name,
+                       const std::vector<KeySpec>& keys);
 
     scenario_io::Node document_;
 };

@@ -8,6 +8,7 @@
 #include "common/packing/overlap_energy.hpp"
 #include "common/packing/packing.hpp"
 #include "common/packing/random.hpp"
+#include "common/packing/tiled.hpp"
 
 namespace softgrain::peers {
 
@@ -32,21 +33,6 @@ inline Packing packed_cell(int n, std::uint64_t seed) {
     relaxed.relax(balance, clear, most_steps);
     for (std::size_t i = 0; i < cell.size(); ++i) cell.center[i] = cell.box.wrapped(relaxed.center()[i]);
     return cell;
-}
-
-/// side x side copies of a cell.
-inline Packing tiled(const Packing& cell, int side) {
-    Packing many;
-    many.box = cell.box;
-    many.box.position[1] *= side;
-    many.box.position[3] *= side;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            for (std::size_t i = 0; i < cell.size(); ++i) {
-                many.center.push_back(cell.center[i] + cell.box.image(x, y));
-                many.radius.push_back(cell.radius[i]);
-            }
-    return many;
 }
 
 /// Velocities uniform in a square, their mean zero, with this root mean square [m/s].

@@ -14,6 +14,7 @@
 #include "app/bench/scaling/tiles.hpp"
 #include "app/methods.hpp"
 #include "common/errors.hpp"
+#include "common/packing/tiled.hpp"
 
 namespace softgrain::bench {
 namespace {
@@ -38,7 +39,7 @@ TEST(Tiles, CopiesLieSideBySide) {
     cell.box = Box{{1.0, 4.0, 0.0, 2.0}};
     cell.center = {{1.5, 0.5}, {3.0, 1.75}};
     cell.radius = {0.5, 0.25};
-    const Packing many = tiled_between_walls(cell, 2);
+    const Packing many = tiled(cell, 2);
     ASSERT_EQ(many.size(), 8U);
     EXPECT_EQ(many.center[7], Vec2(6.0, 3.75)) << "the last copy is one cell further right and up";
     EXPECT_EQ(many.box.position, (std::array<double, 4>{1.0, 7.0, 0.0, 4.0}));

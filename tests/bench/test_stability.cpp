@@ -138,7 +138,7 @@ TEST_F(Folder, PlansAreReadAndTheirErrorsHaveALine) {
     for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
              {"[radnom]\n", "p.toml:1:"},
              {"[random]\nscenario = 3\n", "p.toml:2:1: unknown key 'scenario'"},
-             {"[[map]]\nname = \"m\"\nmethod = \"fem\"\n", "p.toml:3:10: map.0.method is no method"},
+             {"[[map]]\nname = \"m\"\nmethod = \"fem\"\n", "p.toml:3:10: map.0.method must be one of sdem"},
              {"[[map]]\nname = \"m\"\nmethod = \"sdem\"\nphi = \"0.8; 0.9\"\n", "map.0.phi must be numbers"},
              {"[[extreme]]\nname = \"e\"\nscenario = \"no.toml\"\n",
               "p.toml:3:12: extreme.0.scenario there is no"},

@@ -12,9 +12,6 @@ inline constexpr int largest_cell = 1000;
 /// InputError if there is no such number.
 int copies_of(int grains);
 
-/// `side` x `side` copies of a cell between walls, without those between the copies.
-Packing tiled_between_walls(const Packing& cell, int side);
-
 /// How much closer the centres are than those of grains that just touch, so that the first step has its
 /// contacts.
 inline constexpr double squeeze = 0.005;

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "app/bench/results_folder.hpp"
 #include "app/bench/stability/plan.hpp"
 #include "app/bench/stability/plots.hpp"
 #include "app/bench/stability/tables.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
-#include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
-#include "viz/client.hpp"
 
 namespace softgrain::bench {
 namespace {
@@ -32,11 +31,7 @@ void write_results(const StabilityPlan& plan, const StabilityResults& results,
         write_file_atomically(folder / "extremes.csv", extremes_csv(results.extremes));
     if (!results.random.empty()) write_file_atomically(folder / "random.csv", random_csv(results.random));
     for (const MapPlan& map : plan.maps)
-        if (const auto plot = map_plot(results.map, map)) {
-            const std::string name = fmt::format("map_{}.svg", map.name);
-            if (const auto failed = render_plot(*plot, folder / name))
-                throw OutputError(fmt::format("{}: {}", name, *failed));
-        }
+        if (const auto plot = map_plot(results.map, map)) draw(*plot, folder, "map_" + map.name);
     const std::string tables = stability_markdown(results);
     write_file_atomically(folder / "stability.md", tables);
     fmt::print("\n{}\nResults in {}\n", tables, folder.string());
@@ -50,10 +45,7 @@ int bench_stability(const StabilityRequest& request) {
     const auto wants = [&](const char* part) {
         return request.parts.empty() || std::ranges::find(request.parts, part) != request.parts.end();
     };
-    if (!request.force && std::filesystem::exists(request.folder / "stability.md"))
-        throw InputError(
-            fmt::format("{}: holds results already; replace them with --force, or choose another --out",
-                        request.folder.string()));
+    refuse_to_replace(request.folder / "stability.md", request.force);
     make_directories(request.folder);
     StabilityResults results;
     if (wants("random")) results.random = random_runs(plan.random, methods, request.folder / "random");

@@ -7,16 +7,11 @@
 #include <cmath>
 
 #include "app/bench/plan_reader.hpp"
-#include "app/methods.hpp"
-#include "common/io/scenario_document.hpp"
 #include "common/io/scenario_schema.hpp"
-#include "common/io/scenario_table.hpp"
 
 namespace softgrain::bench {
 namespace {
 
-using scenario_io::CheckedTable;
-using scenario_io::Node;
 using Keys = std::vector<KeySpec>;
 
 constexpr std::array<std::string_view, 3> long_kinds{"drift", "cycle", "rest"};
@@ -78,74 +73,29 @@ const Keys& long_keys() {
     return keys;
 }
 
-class Reader {
+class Reader : PlanReader {
   public:
-    explicit Reader(const std::filesystem::path& path)
-        : path_(path),
-          document_(scenario_io::parse_document(scenario_io::read_document(path, "plan"), path.string())),
-          errors_(path.string()) {}
+    using PlanReader::PlanReader;
 
     StabilityPlan read() {
-        for (const Node& child : document_.children)
-            known(child, {"random", "extremes", "extreme", "map", "long"});
+        known_tables({"random", "extremes", "extreme", "map", "long"});
         StabilityPlan plan;
-        const Settings random = check(document_.find("random"), "random", random_keys()).settings;
+        const Settings random = table("random", random_keys()).settings;
         plan.random = {static_cast<int>(random.integer("first_seed")),
                        static_cast<int>(random.integer("scenarios")), limits_of(random)};
-        plan.extremes.limits =
-            limits_of(check(document_.find("extremes"), "extremes", extremes_keys()).settings);
-        each("extreme", extreme_keys(), [&](const CheckedTable& t) { add_extreme(t, plan); });
-        each("map", map_keys(), [&](const CheckedTable& t) { add_map(t, plan); });
-        each("long", long_keys(), [&](const CheckedTable& t) { add_long(t, plan); });
+        plan.extremes.limits = limits_of(table("extremes", extremes_keys()).settings);
+        for (const CheckedTable& t : tables("extreme", extreme_keys(), {})) add_extreme(t, plan);
+        for (const CheckedTable& t : tables("map", map_keys(), {}))
+            if (is_method(t)) add_map(t, plan);
+        for (const CheckedTable& t : tables("long", long_keys(), {}))
+            if (is_method(t)) add_long(t, plan);
         errors_.throw_if_any();
         return plan;
     }
 
   private:
-    void known(const Node& node, const std::vector<std::string_view>& words) {
-        if (std::ranges::find(words, node.key) == words.end())
-            errors_.add(node.key_place, "",
-                        fmt::format("unknown key '{}', known are {}", scenario_io::shown(node.key),
-                                    scenario_io::join(words)));
-    }
-
-    CheckedTable check(const Node* node, const std::string& name, const Keys& keys) {
-        if (node != nullptr) {
-            std::vector<std::string_view> words;
-            for (const KeySpec& key : keys) words.push_back(key.name);
-            for (const Node& child : node->children) known(child, words);
-        }
-        return check_table(node, name, keys, errors_);
-    }
-
-    template <class Add>
-    void each(const char* name, const Keys& keys, const Add& add) {
-        const Node* all = document_.find(name);
-        if (all == nullptr) return;
-        if (all->kind != Node::Kind::array) {
-            errors_.add(all->place, name, fmt::format("must be tables [[{}]]", name));
-            return;
-        }
-        for (std::size_t k = 0; k < all->children.size(); ++k) {
-            const std::size_t before = errors_.size();
-            const CheckedTable table = check(&all->children[k], fmt::format("{}.{}", name, k), keys);
-            if (errors_.size() == before) add(table);
-        }
-    }
-
-    void add_error(const CheckedTable& table, std::string_view key, std::string_view what) {
-        errors_.add(table.place_of(key), table.full(key), what);
-    }
-
     static ChildLimits limits_of(const Settings& s) {
         return {s.number("cpu_time"), s.number("wall_time"), static_cast<std::uint64_t>(s.number("memory"))};
-    }
-
-    std::string method_of(const CheckedTable& table) {
-        std::string name = table.settings.text("method");
-        if (std::ranges::find(methods(), name, &Method::name) == methods().end())
-            add_error(table, "method", fmt::format("is no method: \"{}\"", name));
-        return name;
     }
 
     std::string file_name_of(const CheckedTable& table) {
@@ -170,9 +120,8 @@ class Reader {
     }
 
     void add_extreme(const CheckedTable& table, StabilityPlan& plan) {
-        Extreme one{file_name_of(table),
-                    (path_.parent_path() / table.settings.text("scenario")).lexically_normal(),
-                    parts(table.settings.text("set")), parts(table.settings.text("methods"))};
+        Extreme one{file_name_of(table), file(table, "scenario"), parts(table.settings.text("set")),
+                    parts(table.settings.text("methods"))};
         if (!std::filesystem::is_regular_file(one.scenario))
             add_error(table, "scenario", fmt::format("there is no file {}", one.scenario.string()));
         // An option is looked up from where the program runs.
@@ -186,7 +135,7 @@ class Reader {
 
     void add_map(const CheckedTable& table, StabilityPlan& plan) {
         MapPlan map{.name = file_name_of(table),
-                    .method = method_of(table),
+                    .method = table.settings.text("method"),
                     .set = parts(table.settings.text("set")),
                     .safety_key = table.settings.text("safety_key"),
                     .factor_by_key = table.settings.boolean("factor_by_key"),
@@ -206,7 +155,7 @@ class Reader {
         const auto kind = std::ranges::find(long_kinds, s.text("kind")) - long_kinds.begin();
         LongPlan one{.name = file_name_of(table),
                      .kind = static_cast<LongKind>(kind),
-                     .scene = {.method = method_of(table),
+                     .scene = {.method = s.text("method"),
                                .set = parts(s.text("set")),
                                .grains = static_cast<int>(s.integer("grains")),
                                .periodic = s.boolean("periodic")},
@@ -215,10 +164,6 @@ class Reader {
                      .steps = s.integer("steps")};
         plan.long_runs.push_back(std::move(one));
     }
-
-    const std::filesystem::path& path_;
-    Node document_;
-    scenario_io::ErrorList errors_;
 };
 
 }  // namespace
