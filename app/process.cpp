@@ -30,6 +30,7 @@ const std::atomic<int>& stop_signal() {
 }
 
 void install_stop_signals() {
+    received.store(0);
     struct sigaction action {};
     action.sa_handler = [](int signal) { received.store(signal); };
     sigemptyset(&action.sa_mask);

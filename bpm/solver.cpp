@@ -21,7 +21,7 @@ constexpr double contact_skin = 0.25;
 constexpr double attraction_skin = 0.5;
 constexpr double largest_push = 0.05;  // overlap removed in a step [mean disc diameters]
 constexpr std::size_t discs_worth_threads = 1000;
-constexpr double bond_step = 0.5;                   // share of the largest stable time step of the bonds
+constexpr double bond_step = 0.85;                  // share of the largest stable time step of the bonds
 constexpr long long least_unconverged_steps = 100;  // and more than this share of all steps: given up
 constexpr double most_unconverged = 0.05;
 // Units of Box2D in a diameter, times the step: discs may reach 4 sqrt(F0 d/m), the slop is 0.01 step.

@@ -7,7 +7,7 @@ set(SOFTGRAIN_SIMD_LEVEL_none 0)
 if(NOT DEFINED SOFTGRAIN_SIMD_LEVEL_${SOFTGRAIN_SIMD})
   message(FATAL_ERROR "SOFTGRAIN_SIMD must be auto, avx2 or none, got ${SOFTGRAIN_SIMD}")
 endif()
-if(SOFTGRAIN_SANITIZE)
+if(SOFTGRAIN_SANITIZE OR SOFTGRAIN_SANITIZE_THREADS OR SOFTGRAIN_FUZZ)
   set(SOFTGRAIN_SIMD_LEVEL 0) # address sanitizer and run-time dispatch do not agree
 else()
   set(SOFTGRAIN_SIMD_LEVEL ${SOFTGRAIN_SIMD_LEVEL_${SOFTGRAIN_SIMD}})
@@ -19,9 +19,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND SOFTGRAIN_SIMD_FLAGS -mprefer-vector-width=512 -march=x86-64)
 endif()
 
-if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  list(APPEND SOFTGRAIN_SIMD_FLAGS -Wno-pass-failed) # it warns of a loop that stays scalar
-else()
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   list(APPEND SOFTGRAIN_SIMD_FLAGS -Wno-psabi) # vectors are passed to inlined functions only
 endif()
 

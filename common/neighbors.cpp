@@ -106,9 +106,10 @@ bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach,
     const std::size_t n = built_at_.size();
     if (x.size() != n || cell.periodic != built_cell_.periodic) return true;
     if (n == 0) return false;
-    const auto [F, shift, loss] = cell.periodic ? cell_change(built_cell_, cell) : CellChange{};
-    const double half_skin = 0.5 * skin_ * (1.0 - loss);
-    const double xx = F(0, 0), xy = F(0, 1), yy = F(1, 1);
+    const CellChange change = cell.periodic ? cell_change(built_cell_, cell) : CellChange{};
+    const double loss = change.loss, half_skin = 0.5 * skin_ * (1.0 - loss);
+    const double xx = change.F(0, 0), xy = change.F(0, 1), yy = change.F(1, 1);
+    const double shift_x = change.shift.x(), shift_y = change.shift.y();
     const double* const now = x.data()->data();
     const double* const then = built_at_.data()->data();
     const double* const grown = reach.data();
@@ -116,8 +117,8 @@ bool NeighborList::stale(std::span<const Vec2> x, std::span<const double> reach,
     int stale = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : stale) if (parallel : n > worth_stale_threads)
     for (std::size_t k = 0; k < n; ++k) {
-        const double dx = now[2 * k] - (shift.x() + xx * then[2 * k] + xy * then[2 * k + 1]);
-        const double dy = now[2 * k + 1] - (shift.y() + yy * then[2 * k + 1]);
+        const double dx = now[2 * k] - (shift_x + xx * then[2 * k] + xy * then[2 * k + 1]);
+        const double dy = now[2 * k + 1] - (shift_y + yy * then[2 * k + 1]);
         const double room = half_skin - (grown[k] - built[k]) - loss * built[k];
         stale |= static_cast<int>(room <= 0.0) | static_cast<int>(dx * dx + dy * dy >= room * room);
     }

@@ -41,10 +41,9 @@ GrainView MpmSolver::view(Need need) {
     view.energy = energy_;
     if (!motion_) view.energy.external_work += work_of_gravity();
     view.contact_report.penetration = deepest_overlap(contacts());
-    if (equilibrium_) {
-        view.contact_report.sweeps = iterations_of_step_;
-        view.contact_report.unconverged_steps = 0.0;
-    }
+    const CommonGrid* const grid = motion_ ? motion_->common_grid() : nullptr;
+    view.contact_report.sweeps = grid ? grid->sweeps() : iterations_of_step_;
+    view.contact_report.unconverged_steps = grid ? grid->unconverged_steps() : 0.0;
     if (wants(need, Need::area) || wants(need, Need::stress)) {
         area_.resize(grains_.size());
         for (std::size_t g = 0; g < grains_.size(); ++g)
@@ -53,9 +52,8 @@ GrainView MpmSolver::view(Need need) {
         view.covered_area = covered_area();
     }
     if (wants(need, Need::contacts)) {
-        contact_ = motion_ && motion_->common_grid()
-                       ? motion_->common_grid()->grain_contacts()
-                       : sum_grain_contacts(grains_, surfaces(), contacts(), friction().sliders());
+        contact_ = grid ? grid->grain_contacts()
+                        : sum_grain_contacts(grains_, surfaces(), contacts(), friction().sliders());
         view.contacts = contact_;
     }
     if (wants(need, Need::stress)) {

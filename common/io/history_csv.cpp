@@ -63,7 +63,13 @@ History read_history(const std::filesystem::path& path) {
     for (; std::getline(file, line) && line.starts_with('#');) ++number;
     const std::vector<std::string> names = split(line);
     History history;
-    for (const std::string& name : names) history.columns[name] = {};
+    for (const std::string& name : names)
+        if (name.empty() || !history.columns.try_emplace(name).second)
+            throw InputError(fmt::format(
+                "{}:{}: {}", path.string(), number,
+                name.empty() ? "a column has no name" : fmt::format("two columns are named '{}'", name)));
+    if (names.empty())
+        throw InputError(fmt::format("{}:{}: expected a line of column names", path.string(), number));
     while (std::getline(file, line)) {
         ++number;
         const std::vector<std::string> parts = split(line);

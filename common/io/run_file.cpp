@@ -36,11 +36,9 @@ void write_array(const H5::Group& group, const std::string& name, const std::vec
 
 /// Arrays are stored as they are, so none is larger than the file: told before memory is asked for.
 template <class T>
-std::vector<T> read_array(const H5::DataSet& set) {
+std::vector<T> read_array(const H5::DataSet& set, std::uintmax_t file_size) {
     const hssize_t size = set.getSpace().getSimpleExtentNpoints();
-    hsize_t file_size = 0;
-    H5Fget_filesize(H5Iget_file_id(set.getId()), &file_size);
-    if (size < 0 || static_cast<hsize_t>(size) > file_size / sizeof(T))
+    if (size < 0 || static_cast<std::uintmax_t>(size) > file_size / sizeof(T))
         throw H5::DataSetIException("read_array", "an array is larger than the file");
     std::vector<T> values(static_cast<std::size_t>(size));
     const T* first = nullptr;
@@ -65,15 +63,15 @@ void write_checkpoint(const H5::Group& group, const Checkpoint& checkpoint) {
     for (const auto& [name, values] : checkpoint.integers) write_array(group, name, values);
 }
 
-Checkpoint read_checkpoint(const H5::Group& group) {
+Checkpoint read_checkpoint(const H5::Group& group, std::uintmax_t file_size) {
     Checkpoint checkpoint;
     for (hsize_t k = 0; k < group.getNumObjs(); ++k) {
         const std::string name = group.getObjnameByIdx(k);
         const H5::DataSet set = group.openDataSet(name);
         if (set.getTypeClass() == H5T_FLOAT) {
-            checkpoint.numbers[name] = read_array<double>(set);
+            checkpoint.numbers[name] = read_array<double>(set, file_size);
         } else {
-            checkpoint.integers[name] = read_array<std::int64_t>(set);
+            checkpoint.integers[name] = read_array<std::int64_t>(set, file_size);
         }
     }
     return checkpoint;
@@ -182,16 +180,17 @@ RunFile read_run_file(const std::filesystem::path& path) {
     check_head(path);
     try {
         const H5::H5File file(path.string(), H5F_ACC_RDONLY);
+        const std::uintmax_t size = std::filesystem::file_size(path);
         RunFile content;
         content.version = read_text(file, "version");
         content.method = read_text(file, "method");
         content.scenario = read_text(file, "scenario");
-        const auto spent = read_array<double>(file.openDataSet("time_spent"));
+        const auto spent = read_array<double>(file.openDataSet("time_spent"), size);
         content.wall_time = spent.at(0);
         content.cpu_time = spent.at(1);
         const H5::Group checkpoint = file.openGroup("checkpoint");
-        content.state.load(read_checkpoint(checkpoint.openGroup("loop")));
-        content.solver = read_checkpoint(checkpoint.openGroup("solver"));
+        content.state.load(read_checkpoint(checkpoint.openGroup("loop"), size));
+        content.solver = read_checkpoint(checkpoint.openGroup("solver"), size);
         return content;
     } catch (const H5::Exception& error) {
         throw InputError(fmt::format("{}: not a readable run file: {}", path.string(), error.getDetailMsg()));

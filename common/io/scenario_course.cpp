@@ -75,7 +75,7 @@ bool is_known(const CheckedTable& table) {
     if (kind == "oedometric" && !table.has("wall")) return false;
     if (kind == "probe" && !table.has("stress_amplitude") && !table.has("strain_amplitude")) return false;
     return table.sound({"kind", "wall", "axis", "until_strain", "until_shear", "reverse", "direction",
-                        "strain_amplitude", "stages"});
+                        "strain_amplitude", "stress_amplitude", "stages"});
 }
 
 /// The strains after one stage.

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/errors.hpp"
 #include "common/io/scenario_clumps.hpp"
 #include "common/io/scenario_driven.hpp"
 #include "common/io/scenario_file.hpp"
@@ -196,6 +197,15 @@ std::string write_scenario(const Scenario& scenario, std::span<const MethodKeys>
             written(it == scenario.method_settings.end() ? Settings(method.keys) : it->second, method.keys);
     }
     return out;
+}
+
+bool says_the_same(std::string_view written, std::string_view now, std::span<const MethodKeys> methods) {
+    if (written == now) return true;
+    try {
+        return write_scenario(parse_scenario(written, "", {}, methods), methods) == now;
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 std::string describe_keys(std::span<const MethodKeys> methods) {

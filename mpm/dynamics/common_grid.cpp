@@ -61,14 +61,15 @@ void CommonGrid::collide(std::span<const Vec2> q, std::span<const Vec2> last, st
     apply(v);
     momentum_ = 1.0;
     sweeps_ = 0;
-    converged_ = contact_.empty();
-    while (!converged_ && sweeps_ < settings_.most_sweeps) {
+    bool converged = contact_.empty();
+    while (!converged && sweeps_ < settings_.most_sweeps) {
         find_velocities(v);
-        converged_ = sweep();
-        if (converged_ || ++sweeps_ == settings_.most_sweeps) break;
+        converged = sweep();
+        if (converged || ++sweeps_ == settings_.most_sweeps) break;
         look_ahead();
         apply(v);
     }
+    if (!converged) ++unconverged_steps_;
     apply(v);
     find_velocities(v);
     take_stock(dt);

@@ -52,7 +52,7 @@ class CommonGrid {
     double friction() const { return friction_; }                          ///< dissipated by sliding [J]
     double work_of_walls() const { return work_of_walls_; }                ///< on grains [J]
     int sweeps() const { return sweeps_; }
-    bool converged() const { return converged_; }
+    double unconverged_steps() const { return unconverged_steps_; }  ///< since the start
     /// Mean forces, sorted by (i, j), walls first. Lengths are 0.
     std::vector<GrainContact> grain_contacts() const;
 
@@ -127,7 +127,7 @@ class CommonGrid {
     double dt_ = 0.0;
     double impact_ = 0.0, friction_ = 0.0, work_of_walls_ = 0.0;
     int sweeps_ = 0;
-    bool converged_ = true;
+    double unconverged_steps_ = 0.0;
 };
 
 }  // namespace softgrain::mpm

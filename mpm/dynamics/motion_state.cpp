@@ -77,6 +77,7 @@ void CommonGrid::save(Checkpoint& to) const {
     to.put("mpm.grid.normal", std::span<const Vec2>(normal));
     to.put("mpm.grid.wall_force", std::span<const Vec2>(wall_force_));
     to.put("mpm.grid.dt", dt_);
+    to.put("mpm.grid.unconverged_steps", unconverged_steps_);
 }
 
 void CommonGrid::load(const Checkpoint& from) {
@@ -94,6 +95,7 @@ void CommonGrid::load(const Checkpoint& from) {
     }
     std::ranges::copy(wall_force, wall_force_.begin());
     dt_ = from.number("mpm.grid.dt");
+    unconverged_steps_ = from.number("mpm.grid.unconverged_steps");
 }
 
 }  // namespace softgrain::mpm

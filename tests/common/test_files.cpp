@@ -96,13 +96,21 @@ TEST_F(Files, HistoryComesBackWithTheSameBits) {
 }
 
 TEST_F(Files, BrokenHistoryNamesTheLine) {
-    std::ofstream(folder / "h.csv") << "# comment\na,b\n1,2\n3,x\n";
-    try {
-        read_history(folder / "h.csv");
-        FAIL() << "read a word as a number";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("h.csv:4: 'x' is not a number"), std::string::npos)
-            << error.what();
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"# comment\na,b\n1,2\n3,x\n", "h.csv:4: 'x' is not a number"},
+        {"a,b\n1,2,3\n", "h.csv:2: 3 values, expected 2"},
+        {"# comment\na,b,a\n1,2,3\n", "h.csv:2: two columns are named 'a'"},
+        {"a,,b\n1,2,3\n", "h.csv:1: a column has no name"},
+        {"# comment\n", "h.csv:2: expected a line of column names"},
+    };
+    for (const auto& [text, message] : cases) {
+        std::ofstream(folder / "h.csv") << text;
+        try {
+            read_history(folder / "h.csv");
+            ADD_FAILURE() << "was read: " << text;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+        }
     }
 }
 

@@ -176,6 +176,8 @@ const std::vector<Case> stress_stages{
      "s.toml:1:1: loading.0.direction must be given for a probe: 0 is +xx, 90 is +yy"},
     {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstrain_rate = 1\n",
      "s.toml:1:1: loading.0 has no amplitude: give stress_amplitude or strain_amplitude"},
+    {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstress_amplitude = 0\nstrain_rate = 1\n",
+     "s.toml:4:20: loading.0.stress_amplitude must be > 0, got 0"},
     {"[[loading]]\nkind = \"probe\"\ndirection = 30\nstress_amplitude = 1\nstrain_amplitude = "
      "0.1\nstrain_rate = "
      "1\n",

@@ -22,6 +22,8 @@ TEST(Malformed, MessageNamesThePlace) {
         {"a = 1\n# \xC3\xA9\xE2\x82\n", "s.toml:2:4: not UTF-8 text"},
         {"# \xED\xA0\x80\n", "s.toml:1:3: not UTF-8 text"},
         {"# \xC0\xAF\n", "s.toml:1:3: not UTF-8 text"},
+        {" \xCF\x98\n",
+         "s.toml:1:2: not valid TOML: expected keys, tables, whitespace or comments, saw '\xCF\x98'"},
         {std::string("a = 1\n#").append(2000, '-'), "s.toml:2:2001: a line has at most 2000 bytes"},
         {std::string((1U << 20U) + 1, '\n'), "s.toml: a scenario has at most 1048576 bytes"},
     };

@@ -369,5 +369,22 @@ TEST(Resolved, TheListOfKeysNamesEveryKey) {
         EXPECT_NE(list.find(line), list.npos) << line;
 }
 
+/// A later version has other comments and more keys; a run of the earlier one can still go on.
+TEST(Resolved, SaysTheSameWithOtherCommentsAndFewerKeys) {
+    const auto keys = methods();
+    const std::string now = write_scenario(parse("[material]\nfriction = 0.25\n" + std::string(stage)), keys);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = now;
+        const auto at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return text.replace(at, from.size(), to);
+    };
+    EXPECT_TRUE(says_the_same(now, now, keys));
+    EXPECT_TRUE(says_the_same("# other\n" + now, now, keys));
+    EXPECT_TRUE(says_the_same(changed("wall_friction = 0", "# none = 0"), now, keys));
+    EXPECT_FALSE(says_the_same(changed("friction = 0.25", "friction = 0.26"), now, keys));
+    EXPECT_FALSE(says_the_same(changed("[material]", "[materiel]"), now, keys));
+}
+
 }  // namespace
 }  // namespace softgrain::test
