@@ -43,12 +43,13 @@ std::string summary(const PeerResults& results) {
 
 std::string all_cases(const PeerResults& results) {
     std::vector<std::vector<std::string>> table{
-        {"peer", "case", "takes times ours", "of the repeats", "ours [s]", "peer [s]"}};
-    for (const PeerRow& row : results.rows)
-        table.push_back(
-            {row.of->name, row.title, two_digits(row.ratio()),
-             fmt::format("{} to {}", two_digits(row.least_ratio()), two_digits(row.largest_ratio())),
-             fmt::format("{:.3g}", row.our_time()), fmt::format("{:.3g}", row.their_time())});
+        {"peer", "number", "case", "takes times ours", "of the repeats", "ours [s]", "peer [s]"}};
+    for (const auto& rows : by_peer(results))
+        for (const PeerRow* row : rows)
+            table.push_back(
+                {row->of->name, std::to_string(table.size()), row->title, two_digits(row->ratio()),
+                 fmt::format("{} to {}", two_digits(row->least_ratio()), two_digits(row->largest_ratio())),
+                 fmt::format("{:.3g}", row->our_time()), fmt::format("{:.3g}", row->their_time())});
     return markdown_table(table);
 }
 
@@ -91,7 +92,7 @@ std::optional<PlotSpec> peers_plot(const PeerResults& results) {
     if (results.rows.empty()) return std::nullopt;
     PlotSpec plot;
     plot.title = "Peers beside softgrain";
-    plot.x = {"case, as in the table", false, 0.0, static_cast<double>(results.rows.size()) + 1.0};
+    plot.x = {"number of the case", false, 0.0, static_cast<double>(results.rows.size()) + 1.0};
     plot.y = {"CPU time / that of softgrain", true, {}, {}};
     plot.legend = "right";
     plot.width = 2200;
