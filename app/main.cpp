@@ -71,8 +71,10 @@ int run_command(const Arguments& a) {
                                               .force = a.force,
                                               .checkpoint_period = a.checkpoint_period,
                                               .quiet = a.quiet});
-    if (report.exit_code == 2 && report.steps == 0)  // there are no results to point at
-        throw InputError(fmt::format("{}: {}", report.method, report.ended));
+    if (report.exit_code != 0 && !std::filesystem::exists(std::filesystem::path(a.out) / "run.json")) {
+        fmt::print(stderr, "{}: {}\n", report.method, report.ended);
+        return report.exit_code;
+    }
     fmt::print("{}: {}\n{} steps, {:.2f} s wall, {:.2f} s CPU, results in {}\n", report.method, report.ended,
                report.steps, report.wall_time, report.cpu_time, a.out);
     print_warnings(report);

@@ -126,13 +126,18 @@ RunReport run_into_folder(const RunRequest& request) {
     reset_peak_memory();
     const Clocks begin;
     std::unique_ptr<Solver> solver;
+    const auto without_results = [&](int exit_code, std::string ended) {
+        report.exit_code = exit_code;
+        report.ended = std::move(ended);
+        if (folder_is_new) std::filesystem::remove(request.folder);
+        return report;
+    };
     try {
         solver = request.method.make(scenario, request.packing);
     } catch (const InputError& error) {
-        report.exit_code = 2;
-        report.ended = fmt::format("cannot run this scenario: {}", error.what());
-        if (folder_is_new) std::filesystem::remove(request.folder);
-        return report;
+        return without_results(2, fmt::format("cannot run this scenario: {}", error.what()));
+    } catch (const DivergedError& error) {
+        return without_results(3, fmt::format("cannot prepare the grains: {}", error.what()));
     }
 
     RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};

@@ -163,7 +163,7 @@ struct Sampling {
         {};  ///< between two rows of a hold [s]; without it a tenth of the hold
 };
 
-/// What is looked at at every sample (common/watch.hpp). A limit that is not given is not watched.
+/// What is looked at at every sample (common/watch.hpp). A limit without a value is not watched.
 struct Watch {
     bool stop = false;  ///< a broken limit ends the run (exit 3); else it is written as a warning
     std::optional<double> energy_residual = {};  ///< largest |energy_residual| / energy that was put in

@@ -219,7 +219,7 @@ const std::vector<KeySpec> watch_keys{
     {"action", text, Value(std::string(watch_action_names[0])), "",
      "what a broken limit does: warn in history.csv, run.json and the report, or stop the run (exit code 3)",
      any_number, words(watch_action_names)},
-    {"energy_residual", number, Value(), "",
+    {"energy_residual", number, 0.5, "",
      "largest |energy_residual| / energy put in: initial energy and the largest |external_work|", positive},
     {"momentum", number, Value(), "",
      "largest |change of momentum - impulses of walls and weights| / sum of the |impulses|, since the last "
@@ -228,7 +228,7 @@ const std::vector<KeySpec> watch_keys{
      positive},
     {"penetration", number, Value(), "", "largest contact_penetration / mean grain diameter (bpm, mpm)",
      positive},
-    {"unconverged", number, Value(), "",
+    {"unconverged", number, 0.5, "",
      "largest share of unconverged steps since the last sample (bpm, mpm)", not_negative},
     {"lost_contacts", number, Value(), "",
      "most pairs of grains with no contact whose centroids are closer than 0.6 of the sum of their radii (of "
@@ -251,7 +251,7 @@ const std::array<TableSpec, 10> tables{{
     {"loading", "A stage of the loading; the first `until_...` that is reached ends it, or its duration.",
      loading_keys, true},
     {"sampling", "What is written, and how often.", sampling_keys},
-    {"watch", "Limits that are looked at at every sample; one that is not given is not watched.", watch_keys},
+    {"watch", "Limits that are looked at at every sample.", watch_keys},
 }};
 
 }  // namespace

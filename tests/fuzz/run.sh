@@ -30,7 +30,7 @@ for reader in "${readers[@]}"; do
     mkdir -p "$kept" "$found"
     echo "#### $reader"
     if [ "$what" = keep ]; then
-        "$fuzz" -merge=1 -max_len=400 "$kept" "$found"
+        "$fuzz" -merge=1 -max_len=300 "$kept" "$found"
     else
         "$fuzz" -max_total_time="$what" -timeout=10 -rss_limit_mb=2048 -max_len=$longest -print_final_stats=1 -verbosity=0 \
             -print_funcs=0 -artifact_prefix="$made/findings/${reader}_" "$found" "$kept" "$seeds/$reader"

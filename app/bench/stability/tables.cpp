@@ -18,8 +18,7 @@ namespace {
 using Table = std::vector<std::vector<std::string>>;
 
 constexpr double wasteful = 2.0;
-constexpr std::array<std::string_view, 3> long_titles{"energy drift, undamped", "closed cycle",
-                                                      "held at rest"};
+constexpr std::array<std::string_view, 3> long_titles{"energy drift", "closed cycle", "held at rest"};
 
 std::string measured_on() {
     return fmt::format("softgrain {} ({}), {}, {}, {}", version, commit, compiler, processor_name(),
@@ -129,12 +128,24 @@ std::string long_section(const std::vector<LongRow>& rows) {
     return "## Long runs\n\n" + markdown_table(table) + "\n";
 }
 
+/// In two words; the reasons are in the CSV file.
+std::string how_it_ended(const WatchedRun& run) {
+    constexpr std::string_view left = "left its range";
+    return std::string(run.ending == Ending::done && run.reason.starts_with(left) ? left
+                                                                                  : name_of(run.ending));
+}
+
 std::string extremes_section(const std::vector<ExtremeRow>& rows) {
-    Table table{{"extreme", "method", "ended", "steps", "CPU time", "reason"}};
-    for (const ExtremeRow& row : rows)
-        table.push_back({row.of->name, row.method, std::string(name_of(row.run.ending)),
-                         fmt::format("{}", row.run.steps), report::seconds(row.run.cpu_time),
-                         cell(row.run.reason)});
+    Table table{{"extreme"}};
+    for (const Method& method : methods()) table.front().emplace_back(method.name);
+    for (const ExtremeRow& row : rows) {
+        if (table.back().front() != row.of->name) {
+            table.emplace_back(table.front().size(), "-");
+            table.back().front() = row.of->name;
+        }
+        const auto column = std::ranges::find(table.front(), row.method) - table.front().begin();
+        table.back()[static_cast<std::size_t>(column)] = how_it_ended(row.run);
+    }
     return "## Extremes\n\n" + markdown_table(table) + "\n";
 }
 
