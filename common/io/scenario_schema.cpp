@@ -228,8 +228,8 @@ const std::vector<KeySpec> watch_keys{
      positive},
     {"penetration", number, Value(), "", "largest contact_penetration / mean grain diameter (bpm, mpm)",
      positive},
-    {"unconverged", number, 0.5, "",
-     "largest share of unconverged steps since the last sample (bpm, mpm)", not_negative},
+    {"unconverged", number, 0.5, "", "largest share of unconverged steps since the last sample (bpm, mpm)",
+     not_negative},
     {"lost_contacts", number, Value(), "",
      "most pairs of grains with no contact whose centroids are closer than 0.6 of the sum of their radii (of "
      "the "
