@@ -75,7 +75,7 @@ std::optional<RunFile> earlier_run(const RunRequest& request, const std::string&
     if (!has_checkpoint(request.folder)) return std::nullopt;  // stopped before its first one
     FoundCheckpoint found = read_checkpoint(request.folder);
     if (found.file.method != request.method.name ||
-        !says_the_same(found.file.scenario, scenario_text, method_keys()))
+        !says_the_same(found.file.scenario, scenario_text, method_keys(), request.method.name))
         throw InputError(fmt::format(
             "{}: was made by another {}; --resume needs the same scenario and overrides (compare with {})",
             found.path.string(), found.file.method != request.method.name ? "method" : "scenario",

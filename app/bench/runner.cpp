@@ -63,8 +63,8 @@ std::string content(const fs::path& path) {
 
 /// The run that is in the folder, if it was not stopped and is of this job.
 std::optional<RunReport> finished_run(const fs::path& folder, const Job& job) {
-    if (!fs::exists(folder / "run.json") ||
-        !says_the_same(content(folder / "scenario.toml"), job.scenario, method_keys()))
+    if (!fs::exists(folder / "run.json") || !says_the_same(content(folder / "scenario.toml"), job.scenario,
+                                                           method_keys(), job.measurement.setting->method))
         return std::nullopt;
     RunReport report = read_report(folder);
     return report.exit_code < 128 ? std::optional(report) : std::nullopt;

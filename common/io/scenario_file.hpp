@@ -38,9 +38,11 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
 /// The scenario with all defaults as TOML; units and meaning as comments. Reading it gives the same scenario.
 std::string write_scenario(const Scenario& scenario, std::span<const MethodKeys> methods);
 
-/// Whether the text that write_scenario() made, perhaps in another version with other comments or without
-/// keys that have come since, says the same as `now`, which this version's made.
-bool says_the_same(std::string_view written, std::string_view now, std::span<const MethodKeys> methods);
+/// Whether two texts of write_scenario() say the same to this method, though one may be of another version
+/// with other comments or without keys that have come since. What stands in the tables of other methods does
+/// not count.
+bool says_the_same(std::string_view written, std::string_view now, std::span<const MethodKeys> methods,
+                   std::string_view method);
 
 /// All tables and keys as text: type, default, range, unit, meaning.
 std::string describe_keys(std::span<const MethodKeys> methods);

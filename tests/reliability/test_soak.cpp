@@ -17,6 +17,7 @@
 
 #include "app/bench/stability/draw.hpp"
 #include "app/bench/stability/finite_files.hpp"
+#include "app/memory.hpp"
 #include "app/methods.hpp"
 #include "app/process.hpp"
 #include "app/run_folder.hpp"
@@ -30,6 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double longest_run = 10.0;  // [s] of CPU time
+constexpr std::uint64_t largest_run =
+    100'000'000;  // [bytes] expected; BPM may be asked for any number of discs
 constexpr std::size_t least_runs = 24;
 // What libraries keep for later use, [bytes] a run and in all. A run that kept its grains would keep more.
 constexpr std::size_t may_grow_by_run = 64 * 1024, may_grow = 1024 * 1024;
@@ -83,6 +86,7 @@ Ended run(const std::string& text, const Method& method, int threads, const fs::
     const Alarm alarm(longest_run);
     try {
         const Scenario scenario = parse_scenario(text, "soak.toml", {}, method_keys());
+        check_memory(scenario, method, largest_run);
         const Packing packing = make_packing(scenario);
         const RunReport report = run_into_folder({.scenario = scenario,
                                                   .packing = packing,
