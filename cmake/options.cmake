@@ -11,7 +11,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(softgrain_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  target_compile_options(softgrain_options INTERFACE -Wno-pass-failed) # of a loop that stays scalar
+  # Of a loop that stays scalar, and of `a & b ? c : d`.
+  target_compile_options(softgrain_options INTERFACE -Wno-pass-failed -Wno-bitwise-conditional-parentheses)
 endif()
 if(SOFTGRAIN_NATIVE)
   target_compile_options(softgrain_options INTERFACE -march=native)
