@@ -2,7 +2,7 @@
 # Builds the fuzzers with clang and runs them, one after the other.
 #   tests/fuzz/run.sh [SECONDS [READER...]]    each so long (60), readers: scenario packing history run_file
 #   tests/fuzz/run.sh keep                     put what they have learned into tests/fuzz/corpus, from which they begin
-# A finding ends the script and is left in build/fuzz/findings.
+# A finding ends the script and is left in build/fuzz/findings. With FUZZ_SEED a run tries the same inputs as the last one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 what=${1:-60}
@@ -32,7 +32,7 @@ for reader in "${readers[@]}"; do
     if [ "$what" = keep ]; then
         "$fuzz" -merge=1 -max_len=300 "$kept" "$found"
     else
-        "$fuzz" -max_total_time="$what" -timeout=10 -rss_limit_mb=2048 -max_len=$longest -print_final_stats=1 -verbosity=0 \
+        "$fuzz" -seed="${FUZZ_SEED:-0}" -max_total_time="$what" -timeout=10 -rss_limit_mb=2048 -max_len=$longest -print_final_stats=1 -verbosity=0 \
             -print_funcs=0 -artifact_prefix="$made/findings/${reader}_" "$found" "$kept" "$seeds/$reader"
     fi
 done
