@@ -71,7 +71,7 @@ int run_command(const Arguments& a) {
                                               .force = a.force,
                                               .checkpoint_period = a.checkpoint_period,
                                               .quiet = a.quiet});
-    if (report.exit_code != 0 && !std::filesystem::exists(std::filesystem::path(a.out) / "run.json")) {
+    if (!report.has_results) {
         fmt::print(stderr, "{}: {}\n", report.method, report.ended);
         return report.exit_code;
     }

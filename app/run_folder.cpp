@@ -129,6 +129,7 @@ RunReport run_into_folder(const RunRequest& request) {
     std::unique_ptr<Solver> solver;
     const auto without_results = [&](int exit_code, std::string ended) {
         report.exit_code = exit_code;
+        report.has_results = false;
         report.ended = std::move(ended);
         if (folder_is_new) std::filesystem::remove(request.folder);
         return report;

@@ -29,6 +29,7 @@ struct RunReport {
     std::string method;
     std::string ended;  ///< "loading done", "left its range ...", "stopped by signal", "diverged: ..."
     int exit_code = 0;
+    bool has_results = true;  ///< false if the method could not begin: nothing was written
     std::size_t grains = 0;
     long long steps = 0;
     double simulated_time = 0.0;        ///< [s]

@@ -33,6 +33,7 @@ TEST(RunFolder, GrainsThatCannotBePreparedAreExitThreeWithoutAFolder) {
     };
     const RunReport report = run();
     EXPECT_EQ(report.exit_code, 3);
+    EXPECT_FALSE(report.has_results);
     EXPECT_EQ(report.ended,
               "cannot prepare the grains: diverged: disc position of grain 3 at t = 0.5: out of reach");
     EXPECT_FALSE(fs::exists(folder));

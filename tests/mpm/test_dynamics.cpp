@@ -447,6 +447,19 @@ Collision collide(const ExplicitSettings& settings, double off) {
             e.friction / energy};
 }
 
+TEST(CommonGrid, StepsThatDoNotConvergeAreCounted) {
+    for (const bool enough : {true, false}) {
+        ExplicitSettings settings = on_common_grid(0.3);
+        if (!enough) settings.common_grid->most_sweeps = 1;
+        Scene scene(test::grains_of(4, {0.5 * Mat2::Identity(), 0.5 * Mat2::Identity()}),
+                    {{-0.63, 0.3}, {0.63, 0.0}}, settings);
+        scene.set_velocity(0, {0.05, 0.0});
+        const double dt = 0.5 * scene.motion->stable_time_step();
+        for (double t = 0.0; t < 10.0; t += dt) scene.step(dt);
+        EXPECT_EQ(scene.motion->common_grid()->unconverged_steps() == 0.0, enough);
+    }
+}
+
 TEST(CommonGrid, CollisionsAreLikeThoseOfSurfaces) {
     for (const double off : {0.0, 0.6}) {
         ExplicitSettings soft;
