@@ -51,6 +51,10 @@ void RigidDem::save(Checkpoint& to) const {
     std::vector<double> driven;
     for (const ForceSum& f : driven_force_) driven.insert(driven.end(), {f.fx, f.fy, f.shear, f.lost_torque});
     to.put("driven_force", driven);
+    if (rest_.used()) {
+        rest_.save(to);
+        to.put("kept_at_rest", kept_at_rest());
+    }
     to.put("energy", std::vector<double>{dissipated_.external_work, dissipated_.damping, dissipated_.friction,
                                          dissipated_.adhesion});
 }
@@ -131,6 +135,11 @@ void RigidDem::load(const Checkpoint& from) {
     remember(memory, at_walls);
     evaluate_forces(walls_, 0.0);
     remember(memory, at_walls);  // an evaluation makes 0 of -0
+    if (rest_.used()) {
+        rest_.load(from);
+        from.get("kept_at_rest", values);
+        set_kept_at_rest(values);
+    }
 
     travelled_ = scalars[3];
     frequency2_ = scalars[4];

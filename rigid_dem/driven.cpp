@@ -30,6 +30,7 @@ void RigidDem::move_driven(double time, double dt) {
 
 void RigidDem::take_driven_forces() {
     for (std::size_t d = 0; d < driven_.size(); ++d) {
+        if (rest_.used() && rest_.resting(block_of(driven_record_[d]))) continue;
         ForceSum& force = force_[driven_record_[d]];
         driven_force_[d] = force;
         force = {};

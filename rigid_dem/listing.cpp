@@ -221,6 +221,7 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
     wall_contacts_.resize(blocks_.size());
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) fill_block(b);
+    start_rest();
 }
 
 void RigidDem::fill_block(std::size_t b) {

@@ -68,6 +68,10 @@ std::span<const KeySpec> keys() {
          Range{0.0, 1.0, true}},
         {"skin", number, Value(), "smallest radius",
          "margin of the neighbour list; by the grains' motion if not given", positive},
+        {"rest_tolerance", number, 0.0, "smallest radius",
+         "blocks of 1024 grains at rest are left out of the steps until what they touch has moved by this; 0 "
+         "for none",
+         not_negative},
         {"overlap_limit", number, 0.1, "smaller radius",
          "largest overlap for which discs count as rigid; the run ends there", positive},
     };
@@ -94,6 +98,7 @@ Parameters parameters_of(const Scenario& scenario) {
     law.bonds_of_start_only = table.text("bonds") == "start";
     law.nonviscous_damping = table.number("nonviscous_damping");
     if (table.has("skin")) law.skin = table.number("skin");
+    law.rest_tolerance = table.number("rest_tolerance");
     law.overlap_limit = table.number("overlap_limit");
     if (law.hertz && material.cohesion > 0.0)
         throw InputError(

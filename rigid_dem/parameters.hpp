@@ -22,6 +22,7 @@ struct Parameters {
     double nonviscous_damping;   ///< Cundall's lambda_d
     double safety;               ///< share of the stability limit used as time step
     std::optional<double> skin;  ///< Verlet skin / smallest radius; by the grains' motion if not given
+    double rest_tolerance;       ///< RestingBlocks' / smallest radius
     double overlap_limit;        ///< overlap / smaller radius beyond which the discs are not rigid any more
 
     /// Share of critical damping.

@@ -27,12 +27,6 @@ double largest(const double (&by_lane)[lanes]) {
 
 }  // namespace
 
-struct RigidDem::BlockTotals {
-    Mat2 virial = Mat2::Zero();
-    double friction_loss = 0.0, damping_loss = 0.0, adhesion_loss = 0.0, overlap = 0.0;
-    std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-};
-
 RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     : law_(parameters_of(scenario)),
       kernel_(pair_kernel(law_.hertz, law_.features, packing.box.periodic)),
@@ -52,6 +46,9 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
         if (!driven_.empty())
             throw InputError(
                 "[[driven]] grains beside clumps are not for rigid_dem; take grains that are discs");
+        if (law_.rest_tolerance > 0.0)
+            throw InputError(
+                "rigid_dem.rest_tolerance is not for clumps; take it out, or grains that are discs");
         clumps_ = std::make_unique<Clumps>(scenario, packing);
         discs_of_clumps = packing_of_discs(packing);
         law_.rotates = true;
@@ -60,6 +57,7 @@ RigidDem::RigidDem(const Scenario& scenario, const Packing& packing)
     const std::size_t n = discs.size();
     radius_ = discs.radius;
     smallest_radius_ = *std::min_element(radius_.begin(), radius_.end());
+    rest_ = RestingBlocks(law_.rest_tolerance * smallest_radius_);
     largest_radius_ = *std::max_element(radius_.begin(), radius_.end());
     for (std::size_t c = 0; c < scenario.class_count(); ++c) material_.push_back(scenario.material_of(c));
     if (material_.size() > 1)
@@ -100,8 +98,10 @@ bool RigidDem::threads() const {
 
 void RigidDem::advance(const WallMotion& walls, double dt) {
     const double began = omp_get_wtime();
+    wake_pushed(walls);
     if (box_.periodic) carry_along(walls);
     move(walls, dt);
+    wake_touched(dt);
     box_ = walls.after(dt);
     walls_ = {box_, walls.velocity, walls.tilt_rate};
     time_ += dt;
@@ -125,6 +125,7 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
         dissipated_.external_work -= 0.5 * (before + after).sum() * dt;
     }
     if (++steps_measured_ >= steps_between_measures) find_frequency();
+    put_to_rest(walls, dt);
     if (radius_.size() > worth_threads) thread_choice_.note(omp_get_wtime() - began);
 }
 
@@ -158,6 +159,7 @@ void RigidDem::move(const WallMotion& walls, double dt) {
     std::vector<std::pair<double, double>> totals(mover_blocks());  // squared speed, work
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < totals.size(); ++b) {
+        if (rest_.resting(b)) continue;
         MotionSums sums{};
         kick_and_drift(movers(b), dt, flow, sums);
         totals[b] = {largest(sums.speed2), sum(sums.work)};
@@ -192,15 +194,17 @@ void RigidDem::throw_too_fast(const WallMotion& walls, double dt) const {
 void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
     const WallMotion here{box_, walls.velocity, walls.tilt_rate};
     const WallMotion cell = here.flipped(flips_);
-    std::vector<BlockTotals> totals(blocks_.size());
+    totals_.resize(blocks_.size());
 #pragma omp parallel for schedule(static) if (threads())
-    for (std::size_t b = 0; b < blocks_.size(); ++b) totals[b] = contact_forces(b, cell, dt);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        if (!rest_.resting(b)) totals_[b] = contact_forces(b, cell, dt);
 #pragma omp parallel for schedule(static) if (threads())
-    for (std::size_t b = 0; b < blocks_.size(); ++b) collect_arrivals(blocks_[b]);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        if (!rest_.resting(b)) collect_arrivals(blocks_[b]);
     take_driven_forces();
 
     BlockTotals all;
-    for (const BlockTotals& one : totals) {
+    for (const BlockTotals& one : totals_) {
         all.virial += one.virial;
         all.friction_loss += one.friction_loss;
         all.damping_loss += one.damping_loss;
@@ -339,6 +343,7 @@ void RigidDem::set_velocity(std::span<const Vec2> velocity, std::span<const doub
     });
     if (clumps_) clumps_->place_discs(record_);
     last_dt_ = 0.0;
+    start_rest();
     evaluate_forces(walls_, 0.0);
 }
 

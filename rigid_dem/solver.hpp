@@ -1,13 +1,15 @@
 #pragma once
 // Classical DEM of rigid discs (Cundall type): leap-frog, compliant contacts with memory.
 // solver.cpp: one step. listing.cpp: neighbours, blocks, memory of contacts. time_step.cpp: the stability
-// limit. driven.cpp, periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as they say. With clumps,
+// limit. rest.cpp: blocks left out. driven.cpp, periodic_cell.cpp, energy.cpp, view.cpp, checkpoint.cpp: as
+// they say. With clumps,
 // everything here counts discs, and what moves and what the view tells are the clumps (clumps.hpp).
 #include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "common/neighbors.hpp"
+#include "common/resting_blocks.hpp"
 #include "common/solver.hpp"
 #include "common/thread_choice.hpp"
 #include "rigid_dem/blocks.hpp"
@@ -41,9 +43,16 @@ class RigidDem final : public Solver {
     std::vector<Disc> discs() const;
     /// Neighbour lists made so far.
     int listings() const { return listings_; }
+    /// What a step leaves out.
+    const RestingBlocks& rest() const { return rest_; }
 
   private:
-    struct BlockTotals;
+    /// Of a block's contacts in a step.
+    struct BlockTotals {
+        Mat2 virial = Mat2::Zero();
+        double friction_loss = 0.0, damping_loss = 0.0, adhesion_loss = 0.0, overlap = 0.0;
+        std::array<Vec2, 4> wall_force{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+    };
     struct ContactBook;
     struct StiffnessSum;
 
@@ -77,6 +86,19 @@ class RigidDem final : public Solver {
     double skin_by_motion() const;
     double reach_of(std::size_t grain) const;
     Deformation deformation_since_listing(double& loss) const;
+
+    // rest
+    void start_rest();
+    bool is_pushed(std::size_t block, const WallMotion& walls) const;
+    void wake_pushed(const WallMotion& walls);
+    void wake_touched(double dt);
+    bool is_balanced(const Block& block, double largest_acceleration) const;
+    void put_to_rest(const WallMotion& walls, double dt);
+    std::vector<double> kept_at_rest() const;
+    void set_kept_at_rest(const std::vector<double>& kept);
+    /// visit(value) for all that a block at rest keeps and a new evaluation would find with other bits.
+    template <class Self, class Visit>
+    static void each_kept_value(Self& solver, const Visit& visit);
 
     // driven grains
     std::size_t free_grains() const { return reference_area_.size() - driven_.size(); }
@@ -130,6 +152,12 @@ class RigidDem final : public Solver {
         return record_[block.first_record + local];
     }
     double overlap(const Block& block, std::size_t pair) const;
+    /// That a grain's record is in.
+    std::size_t block_of(std::size_t record) const {
+        const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), record,
+                                            [](std::size_t r, const Block& b) { return r < b.first_record; });
+        return static_cast<std::size_t>(after - blocks_.begin()) - 1;
+    }
     std::size_t record_of(std::size_t place) const {
         return blocks_[place / grains_per_block].first_record + place % grains_per_block;
     }
@@ -168,6 +196,8 @@ class RigidDem final : public Solver {
     std::vector<std::vector<WallContact>> wall_contacts_;  ///< by block
     std::vector<GrainRecord> record_;
     std::vector<ForceSum> force_;
+    std::vector<BlockTotals> totals_;  ///< by block, of the last step
+    RestingBlocks rest_;
 
     // driven grains, the last ones by number
     std::vector<DrivenMotion> driven_;
@@ -210,10 +240,7 @@ void RigidDem::each_pair(const Block& block, const Visit& visit) const {
     const auto grain_of = [&](std::size_t local) -> std::size_t {
         if (local < block.grains) return order_[block.first_grain + local];
         const std::uint32_t record = block.halo[local - block.grains].record;
-        const auto after =
-            std::upper_bound(blocks_.begin(), blocks_.end(), record,
-                             [](std::uint32_t r, const Block& b) { return r < b.first_record; });
-        const Block& home = *(after - 1);
+        const Block& home = blocks_[block_of(record)];
         return order_[home.first_grain + record - home.first_record];
     };
     for (std::size_t k = 0; k < block.pairs.size(); ++k) {
