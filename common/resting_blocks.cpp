@@ -8,7 +8,7 @@ namespace softgrain {
 namespace {
 
 /// Of the weight: what falls freely is not at rest, however slowly it starts.
-constexpr double share_of_weight = 0.01;
+constexpr double share_of_weight = 0.1;
 
 }  // namespace
 

@@ -46,15 +46,15 @@ void list_pairs(Block& block, const NeighborList& neighbors, std::size_t first, 
 
 }  // namespace
 
-std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains,
+std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains, std::size_t size,
                                    const std::vector<char>& driven) {
-    std::vector<Block> blocks((grains + grains_per_block - 1) / grains_per_block);
+    std::vector<Block> blocks((grains + size - 1) / size);
     const auto pairs = neighbors.pairs();
 #pragma omp parallel for schedule(static) if (blocks.size() > 8)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         Block& block = blocks[b];
-        block.first_grain = b * grains_per_block;
-        block.grains = std::min(grains_per_block, grains - block.first_grain);
+        block.first_grain = b * size;
+        block.grains = std::min(size, grains - block.first_grain);
         const auto first_of = [&](std::size_t grain) {
             return std::lower_bound(pairs.begin(), pairs.end(), Pair{static_cast<int>(grain), 0}) -
                    pairs.begin();
@@ -72,7 +72,7 @@ std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t gr
     for (Block& block : blocks)
         for (std::size_t h = 0; h < block.halo.size(); ++h) {
             Halo& copy = block.halo[h];
-            const std::size_t home = copy.record / grains_per_block, place = copy.record % grains_per_block;
+            const std::size_t home = copy.record / size, place = copy.record % size;
             copy.record = static_cast<std::uint32_t>(blocks[home].first_record + place);
             blocks[home].arrivals.push_back(
                 {static_cast<std::uint32_t>(block.first_record + block.grains + h),

@@ -40,11 +40,13 @@ inline constexpr std::array memories{&Block::shear, &Block::dashpot, &Block::gri
                                      &Block::bond};
 
 inline constexpr std::size_t grains_per_block = 1024;
+/// Where blocks may rest: more copies, but less is awake around what moves.
+inline constexpr std::size_t grains_per_resting_block = 256;
 
-/// Blocks for a list of neighbours by spatial order. Throws InputError if one grain has more neighbours than
-/// a block can count.
-/// Pairs of two driven grains are left out; `driven` by spatial order, empty for none.
-std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains,
+/// Blocks of `size` grains, the last of fewer, for a list of neighbours by spatial order. Throws InputError
+/// if one grain has more neighbours than a block can count. Pairs of two driven grains are left out; `driven`
+/// by spatial order, empty for none.
+std::vector<Block> cut_into_blocks(const NeighborList& neighbors, std::size_t grains, std::size_t size,
                                    const std::vector<char>& driven);
 
 }  // namespace softgrain::rigid_dem

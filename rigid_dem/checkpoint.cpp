@@ -133,13 +133,13 @@ void RigidDem::load(const Checkpoint& from) {
     walls_ = {box_, {values[0], values[1], values[2], values[3]}, values[4]};
     law_.between_grains.sticks = scalars[6];
     remember(memory, at_walls);
-    evaluate_forces(walls_, 0.0);
-    remember(memory, at_walls);  // an evaluation makes 0 of -0
     if (rest_.used()) {
         rest_.load(from);
         from.get("kept_at_rest", values);
         set_kept_at_rest(values);
     }
+    evaluate_forces(walls_, 0.0);
+    remember(memory, at_walls);  // an evaluation makes 0 of -0
 
     travelled_ = scalars[3];
     frequency2_ = scalars[4];

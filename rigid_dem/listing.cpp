@@ -213,11 +213,13 @@ void RigidDem::list_neighbors(std::vector<Vec2> x) {
     std::vector<char> driven;
     if (!driven_.empty())
         for (const std::uint32_t grain : order_) driven.push_back(is_driven(grain) ? 1 : 0);
-    blocks_ = cut_into_blocks(neighbors_, order_.size(), driven);
+    blocks_ = cut_into_blocks(neighbors_, order_.size(),
+                              rest_.used() ? grains_per_resting_block : grains_per_block, driven);
     if (clumps_) clumps_->find_discs(order_, blocks_);
     neighbors_.forget_pairs();
     record_.assign(blocks_.back().first_record + blocks_.back().grains + blocks_.back().halo.size(), {});
     force_.assign(record_.size(), {});
+    totals_.assign(blocks_.size(), {});
     wall_contacts_.resize(blocks_.size());
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b) fill_block(b);

@@ -69,7 +69,7 @@ std::span<const KeySpec> keys() {
         {"skin", number, Value(), "smallest radius",
          "margin of the neighbour list; by the grains' motion if not given", positive},
         {"rest_tolerance", number, 0.0, "smallest radius",
-         "blocks of 1024 grains at rest are left out of the steps until what they touch has moved by this; 0 "
+         "blocks of 256 grains at rest are left out of the steps until what they touch has moved by this; 0 "
          "for none",
          not_negative},
         {"overlap_limit", number, 0.1, "smaller radius",

@@ -104,7 +104,8 @@ void RigidDem::each_kept_value(Self& solver, const Visit& visit) {
         }
         for (std::size_t r = copies; r < end; ++r) {
             auto& copy = solver.record_[r];
-            for (auto* value : {&copy.x, &copy.y, &copy.vx, &copy.vy, &copy.spin, &copy.rim_speed})
+            for (auto* value : {&copy.x, &copy.y, &copy.vx, &copy.vy, &copy.spin, &copy.radius,
+                                &copy.rim_speed, &copy.inverse_mass})
                 visit(*value);
         }
         auto& totals = solver.totals_[b];

@@ -194,7 +194,6 @@ void RigidDem::throw_too_fast(const WallMotion& walls, double dt) const {
 void RigidDem::evaluate_forces(const WallMotion& walls, double dt) {
     const WallMotion here{box_, walls.velocity, walls.tilt_rate};
     const WallMotion cell = here.flipped(flips_);
-    totals_.resize(blocks_.size());
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         if (!rest_.resting(b)) totals_[b] = contact_forces(b, cell, dt);

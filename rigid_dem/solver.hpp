@@ -159,7 +159,8 @@ class RigidDem final : public Solver {
         return static_cast<std::size_t>(after - blocks_.begin()) - 1;
     }
     std::size_t record_of(std::size_t place) const {
-        return blocks_[place / grains_per_block].first_record + place % grains_per_block;
+        const std::size_t each = blocks_.front().grains;
+        return blocks_[place / each].first_record + place % each;
     }
     ContactStiffness stiffness_of(const Block& block, std::size_t pair) const;
     ContactMemory memory_of(const Block& block, std::size_t pair) const;
