@@ -131,11 +131,10 @@ int compare(const CompareRequest& request) {
         results.push_back(
             run_one(request, use_calibrated ? calibrated->scenario : request.scenario, packing, *method));
         const RunReport& report = results.back().report;
-        if (report.exit_code > 128) return report.exit_code;
-        if (report.exit_code != 0) {
-            fmt::print(stderr, "{}: {}\n", report.method, report.ended);
-            exit_code = report.exit_code;
-        }
+        if (report.exit_code == 0) continue;
+        fmt::print(stderr, "{}: {}\n", report.method, report.ended);
+        exit_code = report.exit_code;
+        if (exit_code > 128) return exit_code;
     }
 
     const auto phi = request.at.empty() ? packing_fractions_to_compare(results, table_columns) : request.at;

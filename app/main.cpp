@@ -20,6 +20,7 @@
 #include "common/io/history_csv.hpp"
 #include "common/observables/observable.hpp"
 #include "common/packing/make_packing.hpp"
+#include "common/stop.hpp"
 #include "version.hpp"
 #include "viz/client.hpp"
 #include "viz/plot_text.hpp"
@@ -338,6 +339,9 @@ int main(int argc, char** argv) {
     } catch (const softgrain::OutputError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return 4;
+    } catch (const softgrain::StopAsked& stopped) {
+        fmt::print(stderr, "{}\n", stopped.what());
+        return 128 + softgrain::stop_signal();
     } catch (const std::filesystem::filesystem_error& error) {
         fmt::print(stderr, "{}\n", error.what());
         return 4;

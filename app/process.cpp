@@ -16,27 +16,25 @@
 #include <string>
 
 #include "common/errors.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain {
-namespace {
-
-std::atomic<int> received{0};
-static_assert(std::atomic<int>::is_always_lock_free, "set from a signal handler");
-
-}  // namespace
 
 const std::atomic<int>& stop_signal() {
-    return received;
+    return stop_request();
 }
 
 void install_stop_signals() {
-    received.store(0);
+    stop_request().store(0);
     struct sigaction action {};
-    action.sa_handler = [](int signal) { received.store(signal); };
+    action.sa_handler = [](int signal) { stop_request().store(signal); };
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    struct sigaction at_hang_up {};
+    sigaction(SIGHUP, nullptr, &at_hang_up);
+    if (at_hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored under nohup
 }
 
 double wall_clock() {

@@ -7,8 +7,8 @@
 
 namespace softgrain {
 
-/// Signal number that asked the process to stop since the last install_stop_signals(), or 0. Set by SIGINT
-/// and SIGTERM.
+/// stop_request(): the signal that asked the process to stop since the last install_stop_signals(), or 0. Set
+/// by SIGINT, SIGTERM, and SIGHUP unless it is ignored.
 const std::atomic<int>& stop_signal();
 void install_stop_signals();
 

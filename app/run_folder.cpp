@@ -15,6 +15,7 @@
 #include "common/io/folder_lock.hpp"
 #include "common/io/history_csv.hpp"
 #include "common/io/measure_files.hpp"
+#include "common/stop.hpp"
 #include "common/time_loop.hpp"
 #include "version.hpp"
 #include "viz/paraview/view_script.hpp"
@@ -140,6 +141,10 @@ RunReport run_into_folder(const RunRequest& request) {
         return without_results(2, fmt::format("cannot run this scenario: {}", error.what()));
     } catch (const DivergedError& error) {
         return without_results(3, fmt::format("cannot prepare the grains: {}", error.what()));
+    } catch (const StopAsked& stopped) {
+        return without_results(
+            128 + stop_signal(),
+            fmt::format("{} while the grains were prepared; nothing was written", stopped.what()));
     }
 
     RunFile file{version, std::string(request.method.name), scenario_text, {}, {}, 0.0, 0.0};

@@ -47,9 +47,9 @@ struct RunReport {
 /// Throws InputError if the folder holds results of a run.
 void refuse_to_overwrite(const std::filesystem::path& folder);
 
-/// Runs and writes. Divergence, signals and a scenario that the method refuses (exit_code 2, nothing written)
-/// or whose grains it cannot prepare (exit_code 3, nothing written) are reported, not thrown. Throws
-/// InputError about the folder, and OutputError.
+/// Runs and writes. Divergence and signals are reported, not thrown, and so are a scenario that the method
+/// refuses (exit_code 2) and grains that it cannot prepare (exit_code 3, or that of a signal meanwhile),
+/// after which nothing was written. Throws InputError about the folder, and OutputError.
 RunReport run_into_folder(const RunRequest& request);
 
 /// Report of an earlier run from its run.json. Throws InputError.

@@ -13,6 +13,7 @@
 #include "bpm/scatter.hpp"
 #include "common/contact_dynamics/contact_dynamics.hpp"
 #include "common/errors.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -31,7 +32,11 @@ constexpr int free_steps = 50;     // and then without damping
 constexpr int most_steps = 40000;
 
 ContactSettings contacts_of(double tolerance, int sweeps) {
-    return {.tolerance = tolerance, .skin = 0.3, .max_iterations = sweeps, .largest_push = 0.05};
+    return {.tolerance = tolerance,
+            .skin = 0.3,
+            .max_iterations = sweeps,
+            .largest_push = 0.05,
+            .heeds_stop = true};
 }
 
 double largest_overlap(const ContactDynamics& contacts, std::span<const Vec2> x,
@@ -110,6 +115,7 @@ class Preparation {
 
   private:
     void step(ContactDynamics& contacts, double pull_strength, double damping_rate) {
+        heed_stop();
         const bool gathered = pull_strength == 0.0;
         attraction_.forces(x_, 0.0, force_, gathered);
         const double keep = 1.0 - damping_rate * time_step_;

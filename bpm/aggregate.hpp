@@ -34,7 +34,8 @@ struct Aggregate {
 inline constexpr double aggregate_speed_bound = 1e-3;
 inline constexpr double aggregate_overlap_bound = 1e-4;
 
-/// A grain of radius 1: its outline encloses pi. Throws DivergedError if the bounds are not met.
+/// A grain of radius 1: its outline encloses pi. Throws DivergedError if the bounds are not met, and
+/// StopAsked.
 Aggregate prepare_aggregate(const AggregateSpec& spec);
 
 /// The same grain, so much larger.

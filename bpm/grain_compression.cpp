@@ -9,6 +9,7 @@
 
 #include "bpm/solver.hpp"
 #include "common/errors.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -106,6 +107,7 @@ CompressionCurve compress_grain(const Scenario& scenario, double radius, std::ui
         compression_speed * std::sqrt(solver.maximum_force() * solver.mean_disc_diameter() / disc_mass);
     Measurement measured;
     while (box.height() > (1.0 - plateau_ends) * height) {
+        heed_stop();
         const double h = solver.stable_time_step();
         const WallMotion walls{box, {0.0, 0.0, 0.5 * speed, -0.5 * speed}};
         solver.advance(walls, h);

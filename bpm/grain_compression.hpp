@@ -30,7 +30,7 @@ inline constexpr double plateau_begins = 0.05, plateau_ends = 0.30, elastic_up_t
 inline constexpr double compression_speed = 0.01;
 
 /// A grain of this radius [m] with the settings and the material of the scenario, prepared from `seed`.
-/// Throws InputError for grains of fewer than ten discs, DivergedError.
+/// Throws InputError for grains of fewer than ten discs, DivergedError, StopAsked.
 CompressionCurve compress_grain(const Scenario& scenario, double radius, std::uint64_t seed);
 
 /// Plane-strain modulus E/(1 - nu^2) of a disc whose centre approaches each of two walls by strain x radius

@@ -11,7 +11,7 @@ namespace softgrain::bpm {
 
 /// Aggregate for each grain of the packing, about its own centre; from the cache if they are there. Throws
 /// InputError if a disc would be larger than its grain or there were too many, DivergedError if a preparation
-/// fails.
+/// fails, and StopAsked, with nothing kept in the cache.
 std::vector<Aggregate> prepare_grains(const Scenario& scenario, const Packing& packing,
                                       const BpmSettings& settings);
 

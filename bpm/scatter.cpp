@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/stop.hpp"
+
 namespace softgrain::bpm {
 namespace {
 
@@ -59,6 +61,7 @@ std::vector<Vec2> scatter_in_circle(std::span<const double> radius, double fract
     std::vector<Vec2> x(radius.size());
     int misses = 0;
     for (std::size_t thrown = 0; thrown < order.size();) {
+        heed_stop();
         const int disc = order[thrown];
         const double r = radius_of(disc);
         const double distance = (circle - r) * std::sqrt(random.uniform());

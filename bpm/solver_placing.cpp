@@ -7,6 +7,7 @@
 
 #include "bpm/solver.hpp"
 #include "common/errors.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -109,6 +110,7 @@ void BpmSolver::draw_together(const Box& box, double h) {
 }
 
 void BpmSolver::step_at_rest(const Box& box, double h) {
+    heed_stop();
     step({box, {}}, h);
     stop_discs();
 }
@@ -129,6 +131,7 @@ void BpmSolver::come_to_rest(const Box& box, double h) {
         return std::sqrt(sum / static_cast<double>(v_.size()));
     };
     for (int k = 0; k < most_resting_steps; ++k) {
+        heed_stop();
         step({box, {}}, h);
         if (root_mean_square_speed() < resting_speed * unit_speed) break;
         for (Vec2& v : v_) v *= keep;

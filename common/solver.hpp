@@ -22,7 +22,8 @@ class Solver {
 
     virtual double stable_time_step() const = 0;
 
-    /// One step of `dt` while the walls move as told. Throws DivergedError.
+    /// One step of `dt` while the walls move as told. Throws DivergedError. A step that takes long may throw
+    /// StopAsked; the state is then that before the step.
     virtual void advance(const WallMotion& walls, double dt) = 0;
 
     /// The state after the last step. Fills at least what `need` asks for.
@@ -57,6 +58,7 @@ struct Method {
     std::string_view name;
     std::string_view title;              ///< one line for `softgrain list`
     std::span<const KeySpec> (*keys)();  ///< its scenario table
+    /// May throw StopAsked.
     std::unique_ptr<Solver> (*make)(const Scenario&, const Packing&);
     std::string_view not_given;  ///< history columns it leaves as nan, comma separated
     std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< of a scenario table, if it looks for any

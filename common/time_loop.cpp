@@ -8,6 +8,7 @@
 #include "common/observables/observable.hpp"
 #include "common/observables/stress.hpp"
 #include "common/state_hash.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain {
 namespace {
@@ -103,7 +104,11 @@ const LoadingStage& TimeLoop::stage() const {
 void TimeLoop::go(const std::atomic<int>& stop, const std::function<void()>& after_step) {
     if (driver_.empty()) start();
     while (!finished() && stop.load(std::memory_order_relaxed) == 0) {
-        step(driver_.front());
+        try {
+            step(driver_.front());
+        } catch (const StopAsked&) {
+            return;
+        }
         after_step();
     }
 }

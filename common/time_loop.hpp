@@ -25,9 +25,10 @@ class TimeLoop {
     /// solver must have loaded its part.
     void branch(const RunState& state);
 
-    /// Runs until the loading is done, the method leaves its validity (see state().ended), or `stop` becomes
-    /// non-zero. `after_step` is called after every step. Throws DivergedError, also of a limit of [watch]
-    /// that is to stop the run, OutputError, and InputError if a stage turns out to begin beyond its end.
+    /// Runs until the loading is done, the method leaves its validity (see state().ended), `stop` becomes
+    /// non-zero, or the solver heeds stop_request() within a step, which is then not made. `after_step` is
+    /// called after every step. Throws DivergedError, also of a limit of [watch] that is to stop the run,
+    /// OutputError, and InputError if a stage turns out to begin beyond its end.
     void go(
         const std::atomic<int>& stop, const std::function<void()>& after_step = [] {});
 

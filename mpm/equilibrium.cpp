@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/stop.hpp"
 #include "mpm/contact/model_search.hpp"
 
 namespace softgrain::mpm {
@@ -183,6 +184,7 @@ bool Equilibrium::find_step(std::span<const Vec2> q, std::span<const Vec2> force
     std::vector<Touch> factored;
     std::vector<ContactSpring> changes;
     for (int look = 1;; ++look) {
+        heed_stop();
         model_.find_changes(factored.empty() ? active_ : factored, active_, changes);
         const bool kept = look > 1 && linear_->change_contacts(changes);
         if (!kept && look > 1) model_.find_stiffness(active_, stiffness_.contact);
@@ -231,6 +233,7 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
     if (friction_.exists()) friction_.begin(surfaces_);
     hold_ = 0.0;
     for (;; ++result.iterations) {
+        heed_stop();
         if (friction_.exists()) {
             friction_.lag(contacts_);
             energy = evaluate(q, box, force);

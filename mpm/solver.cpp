@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/stop.hpp"
 #include "mpm/linear/front_solver.hpp"
 
 namespace softgrain::mpm {
@@ -100,6 +101,17 @@ void MpmSolver::make_grains(const Scenario& scenario, const Packing& packing) {
 }
 
 void MpmSolver::advance(const WallMotion& walls, double dt) {
+    Checkpoint before;
+    if (equilibrium_) save(before);
+    try {
+        make_step(walls, dt);
+    } catch (const StopAsked&) {
+        load(before);
+        throw;
+    }
+}
+
+void MpmSolver::make_step(const WallMotion& walls, double dt) {
     box_ = walls.box;
     check_room(walls.after(dt), dt);
     strain_rate_ =

@@ -38,7 +38,8 @@ class MpmSolver final : public Solver {
 
     /// The time in which the walls strain the box by a strain_step; infinite if they stand.
     double stable_time_step() const override;
-    /// Throws DivergedError if there is no equilibrium even for the smallest part of the step.
+    /// Throws DivergedError if there is no equilibrium even for the smallest part of the step; heeds a stop
+    /// between the iterations of an implicit one.
     void advance(const WallMotion& walls, double dt) override;
     GrainView view(Need need) override;
     const std::array<Vec2, 4>& wall_force() const override { return wall_force_; }
@@ -54,6 +55,7 @@ class MpmSolver final : public Solver {
 
   private:
     void make_grains(const Scenario& scenario, const Packing& packing);
+    void make_step(const WallMotion& walls, double dt);
     void advance_explicitly(const WallMotion& walls, double dt);
     void advance_implicitly(const WallMotion& walls, double dt);
     const Contacts& contacts() const { return motion_ ? motion_->contacts() : equilibrium_->contacts(); }

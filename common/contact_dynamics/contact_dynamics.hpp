@@ -22,7 +22,8 @@ struct ContactSettings {
     contact_sweep::Resistance within = {}, between = {};
     /// An overlap is removed by at most this much in a step [m], so that deep ones do not explode.
     double largest_push = std::numeric_limits<double>::infinity();
-    int block_discs = 512;  ///< larger groups are divided
+    int block_discs = 512;    ///< larger groups are divided
+    bool heeds_stop = false;  ///< stop_request() ends a solve between sweeps, and what it has is lost
 };
 
 struct ContactResult {
@@ -41,7 +42,8 @@ class ContactDynamics {
     explicit ContactDynamics(const ContactSettings& settings);
 
     /// Changes discs.v (and rim_speed) from the velocities without contact to those at the end of the step.
-    /// The number, radii, masses and groups of the discs must stay the same between calls.
+    /// The number, radii, masses and groups of the discs must stay the same between calls. Throws StopAsked
+    /// if the settings heed a stop.
     ContactResult solve(const Discs& discs, const WallMotion& walls, double h, bool threads = false);
 
     /// Sorted pairs that never are in contact, from now on.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/stop.hpp"
+
 namespace softgrain {
 namespace {
 
@@ -70,6 +72,7 @@ ContactResult Relaxation::run(bool threads) {
             wait();
         }
     }
+    if (stopped_) throw StopAsked();
     result_.penetration =
         overlap_.empty() ? 0.0 : std::max(0.0, *std::max_element(overlap_.begin(), overlap_.end()));
     result_.sweeps = relaxed_rows_ / std::max(1.0, static_cast<double>(rows_.size()));
@@ -142,6 +145,8 @@ Relaxation::Plan Relaxation::after_sweep() {
     }
     Plan plan;
     plan.done = (full_ && quiet_sweep) || (full_ && result_.iterations >= settings_.max_iterations);
+    stopped_ = settings_.heeds_stop && stop_request() != 0;
+    plan.done = plan.done || stopped_;
     if (plan.done) return plan;
     full_ = quiet_sweep || result_.iterations + 1 >= settings_.max_iterations;
     choose_blocks();

@@ -60,6 +60,7 @@ class Relaxation {
     std::vector<int> chosen_;        ///< blocks of this sweep
     std::vector<int> chosen_start_;  ///< [chosen + 1] sum of the rows of the blocks before
     bool full_ = true;               ///< this sweep is over all blocks and seams
+    bool stopped_ = false;
     double relaxed_rows_ = 0.0;
     ContactResult result_;
 };

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/packing/overlap_energy.hpp"
 #include "common/packing/random_sequential.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain {
 namespace {
@@ -69,6 +70,7 @@ class Fall {
     bool settle() {
         int resting = 0;
         for (int k = 0; k < most_steps && resting < steps_at_rest; ++k) {
+            heed_stop();
             world_.Step(time_step, velocity_iterations, position_iterations);
             const bool rest = momentum() < at_rest * mass_;
             resting = rest ? resting + 1 : 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/stop.hpp"
+
 namespace softgrain {
 namespace {
 
@@ -114,6 +116,7 @@ OverlapEnergy::State OverlapEnergy::relax(double balance, double clear, int most
     update_neighbors();
     State result = compute_forces();
     for (int k = 0; k < most_steps; ++k) {
+        heed_stop();
         if (result.largest_overlap <= clear || result.largest_force <= balance * result.mean_overlap) break;
         double power = 0.0;
         for (std::size_t i = 0; i < center_.size(); ++i) power += velocity_[i].dot(force_[i]);

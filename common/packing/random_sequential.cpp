@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/packing/placed_discs.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain {
 namespace {
@@ -45,6 +46,7 @@ Packing random_sequential(const std::vector<double>& radii, const PackingRequest
     PlacedDiscs placed(box, 2.0 * mean);
     double area = 0.0;
     for (const std::size_t disc : largest_first(radii)) {
+        heed_stop();
         const double r = radii[disc];
         if (2.0 * r > std::min(box.width(), box.height())) fail(request, box, area);
         Vec2& center = packing.center[disc];

@@ -6,6 +6,7 @@
 
 #include "bpm/aggregate.hpp"
 #include "bpm/outline.hpp"
+#include "tests/support/stop_later.hpp"
 
 namespace softgrain::bpm {
 namespace {
@@ -100,6 +101,15 @@ TEST(Aggregate, EveryLawOfSizesAndAttractionMeetsTheBounds) {
         // Two discs fill nearly all that encloses them; a crystal of equal discs 0.9069.
         EXPECT_GT(area, 0.84);
         EXPECT_LT(area, 0.99);
+    }
+}
+
+/// Whatever it is at: thrown discs, sweeps, later steps. All of it would take hours.
+TEST(Aggregate, AStopIsHeededBetweenSweeps) {
+    for (const double seconds : {0.0, 0.5, 3.0}) {
+        const testing::StopLater stop(seconds);
+        EXPECT_THROW(grain(100'000, 1, 0), StopAsked);
+        EXPECT_LT(stop.latency(), 10.0) << "0.1 to 1 s on a crowded machine";
     }
 }
 

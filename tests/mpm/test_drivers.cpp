@@ -5,6 +5,7 @@
 #include "common/errors.hpp"
 #include "tests/mpm/solver.hpp"
 #include "tests/support/same_bits.hpp"
+#include "tests/support/stop_later.hpp"
 
 namespace softgrain::mpm {
 namespace {
@@ -13,6 +14,8 @@ using softgrain::testing::expect_restart_keeps_bits;
 using softgrain::testing::expect_threads_keep_bits;
 using softgrain::testing::same_bits;
 using softgrain::testing::saved;
+using softgrain::testing::seconds_since;
+using softgrain::testing::StopLater;
 
 struct Driver {
     std::string name, driver, contact;
@@ -91,6 +94,27 @@ TEST_P(Drivers, LookingChangesNothing) {
         box = next;
     }
     EXPECT_TRUE(same_bits(saved(*watched), saved(*alone)));
+}
+
+/// In the middle of a step of many parts: the step is taken back, and made anew with the same bits.
+TEST_P(Drivers, AStopWithinAStepTakesItBack) {
+    if (GetParam().driver == "explicit") GTEST_SKIP() << "its steps are short";
+    const auto straight = make(), stopped = make();
+    for (Solver* solver : {straight.get(), stopped.get()}) squeeze(*solver, packing().box, 1);
+    const Box box = stopped->view(Need::base).box;
+    const WallMotion walls{box, {0.02, -0.02, 0.02, -0.02}};
+    const double dt = 10.0;
+    const Checkpoint before = saved(*stopped);
+    const auto begin = std::chrono::steady_clock::now();
+    straight->advance(walls, dt);
+    const double whole = seconds_since(begin);
+    {
+        const StopLater stop(0.1 * whole);
+        EXPECT_THROW(stopped->advance(walls, dt), StopAsked);
+    }
+    EXPECT_TRUE(same_bits(before, saved(*stopped)));
+    stopped->advance(walls, dt);
+    EXPECT_TRUE(same_bits(saved(*straight), saved(*stopped)));
 }
 
 TEST_P(Drivers, TheLedgerClosesAndFrictionTakesItsShare) {

@@ -24,6 +24,7 @@
 #include "common/errors.hpp"
 #include "common/io/scenario_file.hpp"
 #include "common/packing/make_packing.hpp"
+#include "common/stop.hpp"
 
 namespace softgrain {
 namespace {
@@ -97,6 +98,8 @@ Ended run(const std::string& text, const Method& method, int threads, const fs::
         return {report.exit_code, report.steps, report.ended};
     } catch (const InputError& error) {
         return {2, 0, error.what()};
+    } catch (const StopAsked& stopped) {
+        return {128 + SIGTERM, 0, stopped.what()};
     }
 }
 
