@@ -177,7 +177,9 @@ RunReport run_into_folder(const RunRequest& request) {
     if (!measured.empty()) observers.push_back(&measures.emplace(request.folder, measured));
 
     TimeLoop run(scenario, request.packing, *solver, observers);
-    if (earlier) run.resume(file.state);
+    std::vector<std::string> lost;
+    if (earlier) lost = run.resume(file.state);
+    for (const std::string& line : lost) fmt::print(stderr, "{}\n", line);
     if (before) run.branch(before->state);
     const double wall_before = file.wall_time;
     const double cpu_before = file.cpu_time;
@@ -220,6 +222,7 @@ RunReport run_into_folder(const RunRequest& request) {
     report.wall_time = wall_before + wall_clock() - begin.wall;
     report.cpu_time = cpu_before + cpu_clock() - begin.cpu;
     report.warnings = warnings_of(run.state().watch, scenario.watch);
+    report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
     report.peak_memory = static_cast<double>(peak_memory());
     report.finished = date_and_time();
     write_report(request, report, run.state());

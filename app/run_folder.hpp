@@ -40,7 +40,7 @@ struct RunReport {
     int threads = 1;                    ///< most that were used
     std::string processor;              ///< "2 x NAME"; empty if unknown
     std::string finished;               ///< date and time in UTC; empty if unknown
-    std::vector<std::string> warnings;  ///< of the watch, one line for each limit that was broken
+    std::vector<std::string> warnings;  ///< of the watch, a line for each broken limit; and of lost files
     std::string last_state_hash;  ///< state_hash() of the last sample in hexadecimal digits; empty if unknown
 };
 

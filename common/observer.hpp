@@ -1,6 +1,8 @@
 #pragma once
 // A reader of the grains at each sample: writers of history, VTK files, progress.
 #include <span>
+#include <string>
+#include <vector>
 
 #include "common/grain_view.hpp"
 
@@ -23,8 +25,13 @@ class Observer {
     virtual Need need(const Sample& sample) const = 0;
     /// Throws OutputError.
     virtual void observe(const GrainView& view, const Sample& sample) = 0;
-    /// Called instead of a fresh start when a run goes on: frames written so far, at these times [s].
-    virtual void resume(std::span<const double> frame_times) { (void)frame_times; }
+    /// Called instead of a fresh start when a run goes on: frames written so far, at these times [s]. Returns
+    /// lines about files of them that are lost (LostFiles). Throws OutputError, and InputError if a file is
+    /// lost that what follows depends on.
+    virtual std::vector<std::string> resume(std::span<const double> frame_times) {
+        (void)frame_times;
+        return {};
+    }
 };
 
 }  // namespace softgrain

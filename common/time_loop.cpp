@@ -52,10 +52,15 @@ TimeLoop::TimeLoop(const Scenario& scenario, const Packing& packing, Solver& sol
     state_.box = state_.initial_box = packing.box;
 }
 
-void TimeLoop::resume(const RunState& state) {
+std::vector<std::string> TimeLoop::resume(const RunState& state) {
     state_ = state;
     make_driver();
-    for (Observer* observer : observers_) observer->resume(state_.frame_times);
+    std::vector<std::string> lost;
+    for (Observer* observer : observers_) {
+        const std::vector<std::string> lines = observer->resume(state_.frame_times);
+        lost.insert(lost.end(), lines.begin(), lines.end());
+    }
+    return lost;
 }
 
 void TimeLoop::branch(const RunState& state) {

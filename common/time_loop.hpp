@@ -2,6 +2,7 @@
 // The one time loop: moves the walls or the cell, asks the solver to advance, samples at equal strain.
 #include <atomic>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "common/loading.hpp"
@@ -18,8 +19,9 @@ class TimeLoop {
     TimeLoop(const Scenario& scenario, const Packing& packing, Solver& solver,
              std::vector<Observer*> observers);
 
-    /// Continue from a saved state instead of the start; the solver must have loaded its own part.
-    void resume(const RunState& state);
+    /// Continue from a saved state instead of the start; the solver must have loaded its own part. Returns
+    /// what the observers say of lost files; throws as they do.
+    std::vector<std::string> resume(const RunState& state);
 
     /// Begin with the stage that follows those of a run that ended in order, with a history of its own; the
     /// solver must have loaded its part.

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/history_csv.hpp"
+#include "common/io/lost_files.hpp"
 #include "common/observables/forces.hpp"
 #include "common/observables/pair_correlation.hpp"
 #include "common/observables/tessellation.hpp"
@@ -20,6 +23,15 @@ constexpr double chain_turn = std::numbers::pi / 4.0;  // of Peters et al. 2005
 // In mean diameters.
 constexpr double distance_bin = 0.05;
 constexpr double reach = 6.0;
+
+/// With which the files of a measure begin.
+constexpr std::array<std::pair<std::string_view, std::string_view>, measure_names.size()> begins{
+    {{"forces", "# time "},
+     {"chains", "grain,"},
+     {"grains", "# time "},
+     {"pair_correlation", "distance,"},
+     {"tessellation", "x0,"}}};
+constexpr std::string_view begin_of_centres = "# the box's origin";
 
 /// Of the disc of its undeformed area [m].
 double radius_of(const GrainView& view, std::size_t grain) {
@@ -91,6 +103,7 @@ Centres read_centres(const std::filesystem::path& path, bool periodic) {
     const History file = read_history(path);
     const std::vector<double>&x = file.column("x"), &y = file.column("y");
     Centres centres;
+    if (x.size() < 3) throw InputError(fmt::format("{}: cut off", path.string()));
     centres.box = Box{{x.at(0), x.at(0) + x.at(1), y.at(0), y.at(0) + y.at(2)}, periodic, x.at(2)};
     for (std::size_t k = 3; k < x.size(); ++k) centres.position.emplace_back(x[k], y[k]);
     return centres;
@@ -141,9 +154,34 @@ void MeasureWriter::observe(const GrainView& view, const Sample& sample) {
     if (wanted("tessellation")) write_tessellation(view, sample.frame);
 }
 
+std::vector<std::string> MeasureWriter::resume(std::span<const double> frame_times) {
+    std::vector<std::string> lines;
+    const auto frames = static_cast<int>(frame_times.size());
+    const auto look_at = [&](std::string_view name, std::string_view begin) {
+        LostFiles lost;
+        for (int frame = 0; frame < frames; ++frame)
+            lost.add(path(name, frame), damage_at_ends(path(name, frame), begin, "\n"));
+        lost.say(lines);
+    };
+    for (const auto& [name, begin] : begins)
+        if (wanted(name)) look_at(name, begin);
+    if (!wanted("tessellation") || frames == 0) return lines;
+    const std::filesystem::path last = path("centres", frames - 1);
+    if (const auto damage = damage_at_ends(last, begin_of_centres, "\n"); !damage.empty())
+        throw InputError(
+            fmt::format("{}: {}; the next strains refer to it, so put it back or start anew with --force",
+                        last.string(), damage));
+    look_at("centres", begin_of_centres);
+    return lines;
+}
+
 void MeasureWriter::write_tessellation(const GrainView& view, int frame) const {
     write_file_atomically(path("centres", frame), centres_text(view));
     const Centres before = read_centres(path("centres", std::max(0, frame - 1)), view.box.periodic);
+    if (before.position.size() != view.free_size())
+        throw InputError(fmt::format("{}: has {} grains instead of {}; start anew with --force",
+                                     path("centres", std::max(0, frame - 1)).string(), before.position.size(),
+                                     view.free_size()));
     const Tessellation tessellation = tessellate(free_centres(view), view.box);
     const auto gradient =
         local_gradients(tessellation, before.position, before.box, free_centres(view), view.box);

@@ -30,6 +30,8 @@ class MeasureWriter final : public Observer {
     Need need(const Sample& sample) const override;
     /// Throws OutputError.
     void observe(const GrainView& view, const Sample& sample) override;
+    /// Throws InputError if the centres are lost that the next tessellation refers to.
+    std::vector<std::string> resume(std::span<const double> frame_times) override;
 
   private:
     bool wanted(std::string_view measure) const;

@@ -331,7 +331,10 @@ class CountingObserver final : public Observer {
         samples = sample.index + 1;
         if (sample.is_frame) frames.push_back(view.time);
     }
-    void resume(std::span<const double> times) override { frames.assign(times.begin(), times.end()); }
+    std::vector<std::string> resume(std::span<const double> times) override {
+        frames.assign(times.begin(), times.end());
+        return {};
+    }
     bool finite = true;
     int samples = 0;
     std::vector<double> frames;

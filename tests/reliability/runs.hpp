@@ -49,6 +49,9 @@ inline ::testing::AssertionResult same_results(const fs::path& one, const fs::pa
 
 class ReliabilityTest : public ProgramTest {
   protected:
+    static std::ptrdiff_t lines(const std::string& text) {
+        return std::count(text.begin(), text.end(), '\n');
+    }
     /// `softgrain run` of six grains with all outputs and a checkpoint every 50 ms, a part of a second.
     std::vector<std::string> run_of(const std::string& method, const fs::path& out,
                                     const std::vector<std::string>& more = {}) const {

@@ -50,12 +50,7 @@ class SmallDisk {
 
 constexpr std::uintmax_t roomy = std::uintmax_t{64} << 20U;
 
-class DiskFaults : public ReliabilityTest {
-  protected:
-    static std::ptrdiff_t lines(const std::string& text) {
-        return std::count(text.begin(), text.end(), '\n');
-    }
-};
+class DiskFaults : public ReliabilityTest {};
 
 TEST_F(DiskFaults, AFullDiskAtAnyWriteIsSaidAndTheRunGoesOnWhenThereIsRoom) {
     const fs::path place = folder / "disk", out = place / "run", whole = folder / "whole";

@@ -128,7 +128,7 @@ TEST_F(PartWriterTest, GrainsWithoutPartsGiveNoFiles) {
     PartWriter writer(run, true);
     writer.observe(grains.view(), frame_sample(0));
     EXPECT_FALSE(fs::exists(run / "parts.pvd"));
-    EXPECT_NO_THROW(PartWriter(run, true).resume(std::vector<double>{0.0, 1.0}));
+    EXPECT_TRUE(PartWriter(run, true).resume(std::vector<double>{0.0, 1.0}).empty());
 }
 
 TEST_F(PartWriterTest, ContactsOfPartsCanBeLeftOut) {
@@ -150,7 +150,7 @@ TEST_F(PartWriterTest, ResumeGoesOnAfterTheFramesOfTheCheckpoint) {
     EXPECT_EQ(read_pvd(run / "parts.pvd").size(), 2U);
     EXPECT_EQ(read_pvd(run / "part_contacts.pvd").size(), 2U);
     fs::remove(run / "parts/parts_000000.vtp");
-    EXPECT_THROW(PartWriter(run, true).resume(std::vector<double>{2.5}), OutputError);
+    EXPECT_EQ(PartWriter(run, true).resume(std::vector<double>{2.5}).size(), 1U);
 }
 
 TEST_F(PartWriterTest, NotANumberDoesNotGetOut) {

@@ -325,7 +325,7 @@ TEST_F(WritersTest, ResumeKeepsTheFramesOfTheCheckpoint) {
             writer.observe(HandMadeGrains(2, 0.05 * k, 1.0 * k).view(), frame_sample(k));
     }
     ContactWriter again(run);
-    again.resume(std::vector<double>{0.0, 1.0});
+    EXPECT_TRUE(again.resume(std::vector<double>{0.0, 1.0}).empty());
     EXPECT_FALSE(fs::exists(run / "contacts/contacts_000002.vtp"));
     EXPECT_EQ(read_text(run / "contacts.pvd").find("000002"), std::string::npos);
     again.observe(HandMadeGrains(2, 0.15, 7.0).view(), frame_sample(2));
@@ -337,9 +337,25 @@ TEST_F(WritersTest, ResumeKeepsTheFramesOfTheCheckpoint) {
     EXPECT_EQ(index.find("000003"), std::string::npos);
 }
 
-TEST_F(WritersTest, ResumeWithoutTheFramesIsAnError) {
-    ContactWriter writer(run);
-    EXPECT_THROW(writer.resume(std::vector<double>{0.0}), OutputError);
+TEST_F(WritersTest, ResumeSaysWhichFramesAreLostAndGoesOn) {
+    {
+        ContactWriter writer(run);
+        for (int k = 0; k < 4; ++k)
+            writer.observe(HandMadeGrains(2, 0.05 * k, 1.0 * k).view(), frame_sample(k));
+    }
+    fs::remove(run / "contacts/contacts_000001.vtp");
+    fs::resize_file(run / "contacts/contacts_000002.vtp", 700);
+    ContactWriter again(run);
+    const std::vector<std::string> lost = again.resume(std::vector<double>{0.0, 1.0, 2.0});
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(
+        lost[0].find((run / "contacts/contacts_000001.vtp").string() + ": missing (and 1 more of its kind)"),
+        0U)
+        << lost[0];
+    again.observe(HandMadeGrains(2, 0.15, 7.0).view(), frame_sample(3));
+    EXPECT_TRUE(fs::exists(run / "contacts/contacts_000003.vtp"));
+    EXPECT_NE(read_text(run / "contacts.pvd").find("000001"), std::string::npos)
+        << "frames keep their number";
 }
 
 TEST_F(WritersTest, AFreshRunRemovesOlderFrames) {

@@ -113,8 +113,8 @@ Need ContactWriter::need(const Sample& sample) const {
     return sample.is_frame ? Need::contacts : Need::base;
 }
 
-void ContactWriter::resume(std::span<const double> frame_times) {
-    frames_.resume(frame_times);
+std::vector<std::string> ContactWriter::resume(std::span<const double> frame_times) {
+    return frames_.resume(frame_times);
 }
 
 void ContactWriter::observe(const GrainView& view, const Sample& sample) {

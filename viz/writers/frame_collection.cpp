@@ -12,10 +12,16 @@
 
 #include "common/errors.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/lost_files.hpp"
 #include "viz/writers/vtp_file.hpp"
 
 namespace softgrain {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view begin_of_vtp = "<VTKFile ", end_of_vtp = "</VTKFile>\n";
+
+}  // namespace
 
 FrameCollection::FrameCollection(fs::path run_dir, std::string name)
     : run_dir_(std::move(run_dir)), name_(std::move(name)) {}
@@ -24,17 +30,20 @@ std::string FrameCollection::file_name(std::size_t frame) const {
     return fmt::format("{0}/{0}_{1:06d}.vtp", name_, frame);
 }
 
-void FrameCollection::resume(std::span<const double> frame_times) {
-    for (std::size_t frame = 0; frame < frame_times.size(); ++frame)
-        if (!fs::exists(run_dir_ / file_name(frame)))
-            throw OutputError(
-                fmt::format("{}: this frame of the run to resume is missing; start the run afresh",
-                            (run_dir_ / file_name(frame)).string()));
+std::vector<std::string> FrameCollection::resume(std::span<const double> frame_times) {
+    LostFiles lost;
+    for (std::size_t frame = 0; frame < frame_times.size(); ++frame) {
+        const fs::path path = run_dir_ / file_name(frame);
+        lost.add(path, damage_at_ends(path, begin_of_vtp, end_of_vtp));
+    }
     times_.assign(frame_times.begin(), frame_times.end());
     started_ = true;
     make_directories(run_dir_ / name_);
     write_index();
     remove_frames_from(times_.size());
+    std::vector<std::string> lines;
+    lost.say(lines);
+    return lines;
 }
 
 void FrameCollection::add(int frame, double time, vtkPolyData& data) {

@@ -13,9 +13,9 @@ class FrameCollection {
   public:
     FrameCollection(std::filesystem::path run_dir, std::string name);
 
-    /// Keeps frames 0 to n-1 of an earlier run at these times [s]; later ones are removed.
-    /// Throws OutputError if one that should be kept is missing.
-    void resume(std::span<const double> frame_times);
+    /// Keeps frames 0 to n-1 of an earlier run at these times [s]; later ones are removed. Returns a line if
+    /// some that should be kept are lost; they stay in the .pvd.
+    std::vector<std::string> resume(std::span<const double> frame_times);
 
     /// Writes frame number `frame` and then the .pvd, each complete or not at all. Adds TimeValue [s] to the
     /// data. The first frame of a fresh run removes what an older run left. Throws OutputError.

@@ -125,8 +125,8 @@ Need GrainWriter::need(const Sample& sample) const {
     return sample.is_frame ? needs_ : Need::base;
 }
 
-void GrainWriter::resume(std::span<const double> frame_times) {
-    frames_.resume(frame_times);
+std::vector<std::string> GrainWriter::resume(std::span<const double> frame_times) {
+    return frames_.resume(frame_times);
 }
 
 void GrainWriter::observe(const GrainView& view, const Sample& sample) {

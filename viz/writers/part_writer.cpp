@@ -153,10 +153,13 @@ Need PartWriter::need(const Sample& sample) const {
     return sample.is_frame ? Need::parts : Need::base;
 }
 
-void PartWriter::resume(std::span<const double> frame_times) {
-    if (!std::filesystem::exists(run_dir_ / "parts.pvd")) return;  // grains without parts
-    parts_.resume(frame_times);
-    if (contacts_) part_contacts_.resume(frame_times);
+std::vector<std::string> PartWriter::resume(std::span<const double> frame_times) {
+    if (!std::filesystem::exists(run_dir_ / "parts.pvd")) return {};  // grains without parts
+    std::vector<std::string> lost = parts_.resume(frame_times);
+    if (!contacts_) return lost;
+    const std::vector<std::string> of_contacts = part_contacts_.resume(frame_times);
+    lost.insert(lost.end(), of_contacts.begin(), of_contacts.end());
+    return lost;
 }
 
 void PartWriter::observe(const GrainView& view, const Sample& sample) {

@@ -50,8 +50,8 @@ Need WallWriter::need(const Sample&) const {
     return Need::base;
 }
 
-void WallWriter::resume(std::span<const double> frame_times) {
-    frames_.resume(frame_times);
+std::vector<std::string> WallWriter::resume(std::span<const double> frame_times) {
+    return frames_.resume(frame_times);
 }
 
 void WallWriter::observe(const GrainView& view, const Sample& sample) {

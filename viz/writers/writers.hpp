@@ -30,7 +30,7 @@ class GrainWriter final : public Observer {
     Need need(const Sample& sample) const override;
     /// Throws OutputError, and DivergedError if a grain's position, outline or stress is not finite.
     void observe(const GrainView& view, const Sample& sample) override;
-    void resume(std::span<const double> frame_times) override;
+    std::vector<std::string> resume(std::span<const double> frame_times) override;
 
   private:
     FrameCollection frames_;
@@ -47,7 +47,7 @@ class ContactWriter final : public Observer {
     Need need(const Sample& sample) const override;
     /// Throws OutputError, and DivergedError if a contact's point or force is not finite.
     void observe(const GrainView& view, const Sample& sample) override;
-    void resume(std::span<const double> frame_times) override;
+    std::vector<std::string> resume(std::span<const double> frame_times) override;
 
   private:
     FrameCollection frames_;
@@ -64,7 +64,7 @@ class PartWriter final : public Observer {
     Need need(const Sample& sample) const override;
     /// Throws OutputError, and DivergedError if a position, field or force is not finite.
     void observe(const GrainView& view, const Sample& sample) override;
-    void resume(std::span<const double> frame_times) override;
+    std::vector<std::string> resume(std::span<const double> frame_times) override;
 
   private:
     std::filesystem::path run_dir_;
@@ -80,7 +80,7 @@ class WallWriter final : public Observer {
     Need need(const Sample& sample) const override;
     /// Throws OutputError, and DivergedError if a wall's position or force is not finite.
     void observe(const GrainView& view, const Sample& sample) override;
-    void resume(std::span<const double> frame_times) override;
+    std::vector<std::string> resume(std::span<const double> frame_times) override;
 
   private:
     FrameCollection frames_;
