@@ -73,7 +73,9 @@ Scenario scenario_for(const Scenario& scenario, const Method& method) {
         if (settings.has("until_unbalanced") && (stage.until_unbalanced || stage.seeks_stress()))
             stage.until_unbalanced = settings.number("until_unbalanced");
         if (stage.seeks_stress() && !stage.until_unbalanced) stage.until_unbalanced = method.at_rest;
-        if (!stage.has_rate() || (!by_rate && !by_inertia)) continue;
+        if (!stage.has_rate()) continue;
+        if (!stage.strain_rate && !stage.inertial_number) stage.inertial_number = method.inertial_number;
+        if (!by_rate && !by_inertia) continue;
         stage.strain_rate.reset();
         stage.inertial_number.reset();
         (by_rate ? stage.strain_rate : stage.inertial_number) =

@@ -17,7 +17,7 @@ const Method& find_method(std::string_view name);
 std::span<const MethodKeys> method_keys();
 
 /// The scenario as this method runs it: a rate or an equilibrium in the method's table replaces that of
-/// the stages.
+/// the stages, and stages that name no rate have the method's own.
 Scenario scenario_for(const Scenario& scenario, const Method& method);
 
 }  // namespace softgrain

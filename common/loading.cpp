@@ -129,7 +129,7 @@ double StageDriver::rate(double pressure) const {
         floor = x && y ? 0.5 * (*x + *y) : x ? *x : *y;
     }
     const double p = std::max(pressure, floor);
-    return *stage_.inertial_number / (grains_.mean_diameter * std::sqrt(grains_.density / p));
+    return stage_.inertial_number.value() / (grains_.mean_diameter * std::sqrt(grains_.density / p));
 }
 
 double StageDriver::servo_limit(double rate) const {

@@ -136,7 +136,7 @@ struct LoadingStage {
     bool seeks_stress() const {
         return kind == LoadingKind::stress || (kind == LoadingKind::probe && stress_amplitude);
     }
-    /// Has a strain_rate or inertial_number.
+    /// Moves at a rate: strain_rate or inertial_number, or the method's own if neither is given.
     bool has_rate() const {
         return kind != LoadingKind::hold && kind != LoadingKind::gradient && kind != LoadingKind::repeat;
     }

@@ -64,6 +64,8 @@ struct Method {
     std::vector<KeyFault> (*faults)(const Settings&) = nullptr;  ///< of a scenario table, if it looks for any
     std::span<const Refusal> refusals = {};                      ///< what it does not have; make() refuses it
     double at_rest = packing_at_rest;  ///< unbalanced force that counts as rest after a change of stress
+    /// Of stages that name no rate: the cheapest with nearly the least error of `softgrain bench error`.
+    double inertial_number = 1e-2;
 };
 
 }  // namespace softgrain

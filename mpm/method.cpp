@@ -160,7 +160,8 @@ const Method& method() {
                             .make = &make,
                             .not_given = "fragments",
                             .faults = &faults_of,
-                            .refusals = refusals};
+                            .refusals = refusals,
+                            .inertial_number = 1e-3};
     return row;
 }
 

@@ -43,7 +43,7 @@ std::string stage_text(const LoadingStage& stage) {
     return text;
 }
 
-/// Rates that a method's own table gives in place of the scenario's.
+/// Rates that a method's own table gives in place of the scenario's, or that the method has by itself.
 std::string own_rate(const Scenario& scenario, const std::string& method) {
     const Settings& settings = scenario.method_settings.at(method);
     for (const auto* key : {"inertial_number", "strain_rate"})
@@ -51,7 +51,11 @@ std::string own_rate(const Scenario& scenario, const std::string& method) {
             return fmt::format("{}: {} {:g}", method,
                                key == std::string_view("strain_rate") ? "strain rate" : "inertial number",
                                settings.number(key));
-    return "";
+    const bool none_named = std::ranges::any_of(scenario.loading, [](const LoadingStage& stage) {
+        return stage.has_rate() && !stage.strain_rate && !stage.inertial_number;
+    });
+    return none_named ? fmt::format("{}: inertial number {:g}", method, find_method(method).inertial_number)
+                      : "";
 }
 
 /// What all runs say alike, once; else each with its method.

@@ -184,7 +184,8 @@ const std::vector<KeySpec> loading_keys{
      "d(1 - L/L0)/dt, d(tilt / height)/dt of a shear; the largest of stress and probe by stress", positive},
     {"inertial_number", number, Value(), "",
      "I = strain rate * d sqrt(rho / p), instead of strain_rate; p is the mean stress, at least 1e-3 of the "
-     "grains' stress scale, or the stress that servo-control keeps",
+     "grains' stress scale, or the stress that servo-control keeps. With neither the method's own is taken: "
+     "1e-2, or 1e-3 for mpm",
      positive},
     {"reverse", boolean, Value(false), "",
      "move the other way (unload); every end is then reached from above"},

@@ -87,7 +87,7 @@ class StageCheck {
         check_needs();
         if (kind_ == repeat) check_repeat(number, stages);
         if (is(by_rate)) check_end();
-        if (is(by_rate | to_stress)) check_speed();
+        if (is(by_rate | to_stress)) not_both("strain_rate", "inertial_number");
     }
 
   private:
@@ -157,12 +157,6 @@ class StageCheck {
                         fmt::format("has no end: give {}, until_packing_fraction, until_stress, duration or "
                                     "another until_... key",
                                     kind_ == shear ? "until_shear" : "until_strain"));
-    }
-
-    void check_speed() {
-        not_both("strain_rate", "inertial_number");
-        if (!has("strain_rate") && !has("inertial_number"))
-            errors_.add(stage_.place, stage_.path, "has no speed: give strain_rate or inertial_number");
     }
 
     /// What is repeated is there, and is no repeat itself.

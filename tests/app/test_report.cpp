@@ -324,5 +324,16 @@ TEST(Page, EscapesItsTextsAndSaysWhyThereAreNoPictures) {
     EXPECT_FALSE(has(page(content), "No pictures"));
 }
 
+TEST(Page, TellsTheRateOfAMethodWhereTheScenarioNamesNone) {
+    Scenario scenario = small_scenario();
+    const Packing packing = make_packing(scenario);
+    const std::vector<MethodResult> results{run("sdem", 1.0, 0.9, 1.0)};
+    const auto text = [&] { return page({scenario, packing, "/none", results, {}, {}, {}}); };
+    EXPECT_FALSE(has(text(), "sdem: inertial number 0.01"));
+    scenario.loading[0].strain_rate.reset();
+    scenario.loading[0].inertial_number.reset();
+    EXPECT_TRUE(has(text(), "sdem: inertial number 0.01"));
+}
+
 }  // namespace
 }  // namespace softgrain::report
