@@ -92,6 +92,11 @@ std::span<const KeySpec> keys() {
                 {"batch", "scalar", "polygon"}},
         KeySpec{"skin", KeyType::number, 0.2, "mean radii", "reach of the neighbour list beyond the grains",
                 positive},
+        KeySpec{
+            "rest_tolerance", KeyType::number, 0.0, "mean radii",
+            "parts of 512 grains at rest are left out of the steps until what they touch has moved by this; "
+            "0 for none; explicit only",
+            not_negative},
         KeySpec{"outline_points", KeyType::integer, std::int64_t{64}, "",
                 "nodes of a grain's outline in the view", Range{8.0, 4096.0}},
     };
@@ -183,6 +188,11 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
     const bool damped = options.contact_damping > 0.0 || motion.shape_damping;
     options.safety = settings.has("safety") ? settings.number("safety") : damped || printed ? 0.8 : 0.07;
     options.skin = settings.number("skin");
+    options.rest_tolerance = settings.number("rest_tolerance");
+    if (options.rest_tolerance > 0.0 && motion.imposes_area)
+        throw InputError(
+            "sdem.rest_tolerance is not for sdem.law = \"mollon2022\" with poisson_ratio 0.5, which imposes "
+            "areas; take it out, or use sdem.law = \"lens_potential\"");
     options.outline_points = static_cast<int>(settings.integer("outline_points"));
     const std::string_view geometry = settings.text("geometry");
     options.geometry = geometry == "batch"    ? Geometry::batch
@@ -191,6 +201,10 @@ std::unique_ptr<Solver> make(const Scenario& scenario, const Packing& packing) {
     if (settings.text("driver") == "explicit")
         return std::make_unique<SoftDiscSolver>(std::move(materials), packing, options);
 
+    if (options.rest_tolerance > 0.0)
+        throw InputError(
+            "sdem.driver = \"quasi_static\" moves all grains; take out sdem.rest_tolerance or use "
+            "sdem.driver = \"explicit\"");
     if (printed)
         throw InputError(
             "sdem.driver = \"quasi_static\" minimises an energy, and sdem.law = \"mollon2022\" has none; use "

@@ -144,8 +144,8 @@ void find_pair_forces(const SideValues& push, ContactList& list, std::size_t beg
     }
 }
 
-void find_wall_forces(const SideValues& push, ContactList& list) {
-    for (std::size_t w = 0; w < list.wall_contact.size(); ++w) {
+void find_wall_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
         Contact& c = list.wall_contact[w];
         c.q = c.touching() ? push.wall[w] : 0.0;
     }

@@ -42,8 +42,8 @@ void find_resistances(const Grains& grains, const ContactList& list, std::span<c
 /// The same at one contact with this overlap beta S > 0 [m^2].
 double resistance_of(const Grains& grains, std::span<const Inflated> inflated, std::size_t g, double overlap);
 
-/// Elastic forces of the pairs [begin, end), or of all walls, from the pushes of both sides.
+/// Elastic forces of the pairs or of the wall pairs [begin, end) from the pushes of both sides.
 void find_pair_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end);
-void find_wall_forces(const SideValues& push, ContactList& list);
+void find_wall_forces(const SideValues& push, ContactList& list, std::size_t begin, std::size_t end);
 
 }  // namespace softgrain::sdem

@@ -92,9 +92,10 @@ SlidingWork slide_pairs(const SlidingLaw& law, const Grains& grains, ContactList
     return sum;
 }
 
-SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt) {
+SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt,
+                        std::size_t begin, std::size_t end) {
     SlidingWork sum;
-    for (std::size_t k = 0; k < list.wall_pairs().size(); ++k)
+    for (std::size_t k = begin; k < end; ++k)
         sum.add(slide(law, grip_of(law, grains, list.wall_pairs()[k]), list.wall_contact[k],
                       list.wall_history, k, dt));
     return sum;

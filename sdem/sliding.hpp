@@ -31,8 +31,9 @@ struct SlidingWork {
 /// forces and pressures are known; dt is the length of the step just made, 0 to change no memory.
 SlidingWork slide_pairs(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt,
                         std::size_t begin, std::size_t end);
-/// The same for all walls.
-SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt);
+/// The same for the wall pairs [begin, end).
+SlidingWork slide_walls(const SlidingLaw& law, const Grains& grains, ContactList& list, double dt,
+                        std::size_t begin, std::size_t end);
 
 /// Energy now in springs and adhesion [J].
 double stored_energy(const SlidingLaw& law, const Grains& grains, const ContactList& list);

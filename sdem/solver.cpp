@@ -17,8 +17,6 @@ namespace softgrain::sdem {
 namespace {
 
 constexpr std::size_t pairs_per_chunk = 128;
-/// Grains whose contacts and pressures are found in one go: as many as a core's own cache holds.
-constexpr std::size_t grains_per_part = 8 * grains_per_block;
 constexpr int steps_per_time_step_check = 16;
 constexpr double worth_a_change = 1.25;
 /// Threads are not tried with fewer grains.
@@ -28,7 +26,9 @@ constexpr std::size_t worth_threads = 400;
 
 SoftDiscSolver::SoftDiscSolver(std::vector<GrainMaterial> material, const Packing& packing,
                                const Options& options)
-    : options_(options), threads_(packing.size() >= worth_threads ? omp_get_max_threads() : 1) {
+    : options_(options),
+      threads_(packing.size() >= worth_threads ? omp_get_max_threads() : 1),
+      rest_(options.rest_tolerance * packing.mean_radius()) {
     motion_.box = lattice_ = packing.box;
     skin_ = options.skin * packing.mean_radius();
     grains_.material = std::move(material);
@@ -103,6 +103,8 @@ double SoftDiscSolver::stress_scale() const {
 }
 
 void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
+    wake_pushed(walls);
+    put_to_rest(walls, dt);
     const StepTimes times{2.0 * lag_, lag_ + 0.5 * dt, dt};
     MotionInput input = motion_input();
     input.flow = walls;
@@ -111,7 +113,9 @@ void SoftDiscSolver::advance(const WallMotion& walls, double dt) {
     std::size_t bad = size();
 #pragma omp parallel for schedule(static) reduction(min : bad) if (threads_pay_off())
     for (std::size_t c = 0; c < grains.count(); ++c)
-        part[c] = move_grains(input, grains_, memory_, times, grains.begin(c), grains.end(c), bad);
+        if (!block_rests(c))
+            part[c] = move_grains(input, grains_, memory_, times, grains.begin(c), grains.end(c), bad);
+    wake_touched(dt);
     Tensor flux{0.0, 0.0, 0.0, 0.0};
     for (const StepWork& work : part) {
         if (!has_potential()) ledger_.elastic += work.stored;
@@ -165,6 +169,7 @@ void SoftDiscSolver::rebuild_contacts() {
                             time_, error.what());
     }
     contacts_.find_shares(grains_);
+    start_rest();
 }
 
 void SoftDiscSolver::update_contacts(double dt) {
@@ -201,7 +206,7 @@ void SoftDiscSolver::find_contacts() {
     const WallInput walls{grains_, lattice, options_.motion.contact_law, options_.contact_damping};
     guess_before_.resize(contacts_.guess.size());
     if (has_potential()) pressures_.side.resize(contacts_);
-    const Chunks parts(size(), grains_per_part), grains = blocks();
+    const Chunks parts = this->parts(), grains = blocks();
     std::vector<PairNews> pair_news(parts.count());
     std::vector<WallNews> wall_news(parts.count());
     std::vector<std::size_t> crushed(grains.count(), size());
@@ -220,6 +225,7 @@ void SoftDiscSolver::find_contacts() {
             const std::size_t begin = parts.begin(part), end = parts.end(part);
             const std::size_t pairs = contacts_.first(begin), pairs_end = contacts_.first(end);
             first = std::min(first, begin);
+            if (rest_.resting(part)) continue;
             std::copy(contacts_.guess.begin() + pairs, contacts_.guess.begin() + pairs_end,
                       guess_before_.begin() + pairs);
             pair_news[part] = evaluate_pairs(in, out, pairs, pairs_end);
@@ -256,6 +262,20 @@ void SoftDiscSolver::find_contacts() {
                             "its contacts have squeezed the grain to nothing");
 }
 
+template <class GrainOf, class First, class Visit>
+void SoftDiscSolver::each_awake_stretch(std::size_t begin, std::size_t end, const GrainOf& grain_of,
+                                        const First& first, const Visit& visit) const {
+    std::size_t from = begin;
+    for (std::size_t k = begin, next; k < end; k = next) {
+        const std::size_t part = static_cast<std::size_t>(grain_of(k)) / grains_per_part;
+        next = std::min(end, first(parts().end(part)));
+        if (!rest_.resting(part)) continue;
+        if (from < k) visit(from, k);
+        from = next;
+    }
+    if (from < end) visit(from, end);
+}
+
 /// Forces of the contacts, what they remember, and the stress of a cell.
 void SoftDiscSolver::find_forces(double dt) {
     struct OfPart {
@@ -268,13 +288,23 @@ void SoftDiscSolver::find_forces(double dt) {
 #pragma omp parallel for schedule(static) if (threads_pay_off())
     for (std::size_t c = 0; c < pairs.count(); ++c) {
         const std::size_t begin = pairs.begin(c), end = pairs.end(c);
-        if (has_potential()) find_pair_forces(pressures_.side, contacts_, begin, end);
-        if (slides) part[c].work = slide_pairs(options_.sliding, grains_, contacts_, dt, begin, end);
+        each_awake_stretch(
+            begin, end, [&](std::size_t k) { return contacts_.pairs()[k].i; },
+            [&](std::size_t g) { return contacts_.first(g); },
+            [&](std::size_t from, std::size_t to) {
+                if (has_potential()) find_pair_forces(pressures_.side, contacts_, from, to);
+                if (slides) part[c].work.add(slide_pairs(options_.sliding, grains_, contacts_, dt, from, to));
+            });
         for (std::size_t k = begin; periodic && k < end; ++k) add_stress(part[c].stress, k);
     }
-    if (has_potential()) find_wall_forces(pressures_.side, contacts_);
     SlidingWork work;
-    if (slides) work = slide_walls(options_.sliding, grains_, contacts_, dt);
+    each_awake_stretch(
+        0, contacts_.wall_pairs().size(), [&](std::size_t w) { return contacts_.wall_pairs()[w].grain; },
+        [&](std::size_t g) { return contacts_.wall_first(g); },
+        [&](std::size_t from, std::size_t to) {
+            if (has_potential()) find_wall_forces(pressures_.side, contacts_, from, to);
+            if (slides) work.add(slide_walls(options_.sliding, grains_, contacts_, dt, from, to));
+        });
     cell_stress_ = CellStress{};
     for (const OfPart& p : part) {
         work.add(p.work);

@@ -1,9 +1,11 @@
 #pragma once
 // SDEM: discs with six degrees of freedom, the centre c and the deformation gradient F. See README.md.
+// solver.cpp: one step. solver_rest.cpp: grains left out. The other files: as they say.
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "common/resting_blocks.hpp"
 #include "common/solver.hpp"
 #include "common/thread_choice.hpp"
 #include "sdem/chunks.hpp"
@@ -16,6 +18,10 @@
 
 namespace softgrain::sdem {
 
+/// Grains whose contacts and pressures are found in one go, as many as a core's own cache holds. They rest
+/// together.
+inline constexpr std::size_t grains_per_part = 8 * grains_per_block;
+
 /// What a run of this method can choose.
 struct Options {
     MotionLaw motion;
@@ -24,6 +30,7 @@ struct Options {
     double contact_damping = 1.0;  ///< gamma of Eq. 61
     double safety = 0.8;           ///< time step / stability limit
     double skin = 0.2;             ///< of the neighbour list, in mean radii
+    double rest_tolerance = 0.0;   ///< RestingBlocks', in mean radii
     int outline_points = 64;
 };
 
@@ -41,6 +48,8 @@ class SoftDiscSolver : public Solver {
     void check_finite() const override;
     void save(Checkpoint& to) const override;
     void load(const Checkpoint& from) override;
+    /// What a step leaves out.
+    const RestingBlocks& rest() const { return rest_; }
 
   protected:
     /// Contacts and forces at the present positions; `dt` is the step that led there, 0 if none did.
@@ -63,6 +72,7 @@ class SoftDiscSolver : public Solver {
     bool has_potential() const { return options_.motion.contact_law == ContactLaw::lens_potential; }
     std::size_t size() const { return grains_.size(); }
     Chunks blocks() const { return {size(), grains_per_block}; }
+    Chunks parts() const { return {size(), grains_per_part}; }
     int packing_index(std::size_t g) const { return grains_.original[g]; }
 
     Options options_;
@@ -115,6 +125,31 @@ class SoftDiscSolver : public Solver {
                            double reduced_mass) const;
     void throw_bad_pair(const BadPair& bad) const;
 
+    // rest
+    bool block_rests(std::size_t block) const {
+        return rest_.resting(block * grains_per_block / grains_per_part);
+    }
+    void start_rest();
+    bool is_pushed(std::size_t part, const WallMotion& walls) const;
+    void wake_pushed(const WallMotion& walls);
+    void wake_touched(double dt);
+    bool is_balanced(std::size_t part, double largest_acceleration) const;
+    void put_to_rest(const WallMotion& walls, double dt);
+    StepWork come_to_rest(std::size_t part);
+    void save_rest(Checkpoint& to) const;
+    void load_rest(const Checkpoint& from);
+    /// visit(push, contact) for each candidate contact of a part's grains.
+    template <class Self, class Visit>
+    static void each_push(Self& solver, std::size_t part, const Visit& visit);
+    /// visit(value) for all that a part at rest keeps and a new evaluation would find with other bits.
+    template <class Self, class Visit>
+    static void each_kept_value(Self& solver, const Visit& visit);
+    /// visit(begin, end) for the stretches of the contacts [begin, end) that are not left out. grain_of(k):
+    /// the grain with which contact k is kept; first(g): the first contact kept with grain g.
+    template <class GrainOf, class First, class Visit>
+    void each_awake_stretch(std::size_t begin, std::size_t end, const GrainOf& grain_of, const First& first,
+                            const Visit& visit) const;
+
     EnergyLedger energy() const;
     /// Overlaps that grain g gives way to, and its area ratio Je under them; lens potential only.
     LensPotential::Sums overlaps(std::size_t g) const;
@@ -130,6 +165,8 @@ class SoftDiscSolver : public Solver {
     void fill_fields();
     std::vector<Cut> cuts_of(std::size_t g) const;
 
+    RestingBlocks rest_;     ///< parts
+    SideValues resistance_;  ///< if parts may rest: these keep their pushes
     int flips_ = 0;
     double skin_ = 0.0;                                     ///< of the neighbour list [m]
     double time_step_ = 0.0;                                ///< [s] found every few steps

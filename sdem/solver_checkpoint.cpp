@@ -93,6 +93,7 @@ void SoftDiscSolver::save(Checkpoint& to) const {
     }
     to.put("sdem.energy", std::vector<double>{ledger_.elastic, ledger_.external_work, ledger_.damping,
                                               ledger_.friction, ledger_.plastic, ledger_.adhesion});
+    if (rest_.used()) save_rest(to);
 }
 
 void SoftDiscSolver::load(const Checkpoint& from) {
@@ -165,6 +166,7 @@ void SoftDiscSolver::load(const Checkpoint& from) {
         load_history(from, "wall", contacts_.wall_pairs().size(), contacts_.wall_history);
     }
     lattice_ = cell().box;
+    if (rest_.used()) load_rest(from);
     balance_ = Balance{};
     refresh_contacts(0.0);  // no new candidates for a state as it was saved
 }

@@ -94,6 +94,7 @@ EnergyLedger SoftDiscSolver::energy() const {
     const MotionInput input = motion_input();
     const Chunks grains = blocks();
     for (std::size_t block = 0; block < grains.count(); ++block) {
+        if (block_rests(block)) continue;
         const StepWork work = kick_work(input, grains_, memory_, {2.0 * lag_, lag_, 0.0}, grains.begin(block),
                                         grains.end(block));
         ledger.damping += work.damped;

@@ -18,11 +18,13 @@ double SoftDiscSolver::time_step_share() const {
 }
 
 double SoftDiscSolver::time_step_limit() {
+    SideValues& resistance = rest_.used() ? resistance_ : pressures_.side;
     if (has_potential()) {
+        resistance.resize(contacts_);
         const Chunks grains = blocks();
 #pragma omp parallel for schedule(static) if (threads_pay_off())
         for (std::size_t block = 0; block < grains.count(); ++block)
-            find_resistances(grains_, contacts_, pressures_.inflated, pressures_.side, grains.begin(block),
+            find_resistances(grains_, contacts_, pressures_.inflated, resistance, grains.begin(block),
                              grains.end(block));
     }
     restraint_.resize(size());
@@ -35,9 +37,9 @@ double SoftDiscSolver::time_step_limit() {
             if (!has_potential())
                 sum.add(side.wall() ? wall_restraint(k, 0.0) : pair_restraint(k, 0.0, 0.0));
             else if (side.wall())
-                sum.add(wall_restraint(k, pressures_.side.wall[k]));
+                sum.add(wall_restraint(k, resistance.wall[k]));
             else
-                sum.add(pair_restraint(k, pressures_.side.pair[k].i, pressures_.side.pair[k].j));
+                sum.add(pair_restraint(k, resistance.pair[k].i, resistance.pair[k].j));
         });
         restraint_[g] = sum;
         smallest = std::min(smallest, grain_time_step(g, sum));
