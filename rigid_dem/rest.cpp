@@ -69,7 +69,8 @@ bool RigidDem::is_balanced(const Block& block, double largest_acceleration) cons
     return true;
 }
 
-/// Blocks that have been slow and are balanced lose what motion they have.
+/// Blocks that have been slow and are balanced lose what motion they have. Before a step and not after one: a
+/// restart finds forces by the velocities that are saved.
 void RigidDem::put_to_rest(const WallMotion& walls, double dt) {
     if (!rest_.used()) return;
     const double largest_acceleration = rest_.largest_acceleration(gravity_, dt);

@@ -99,6 +99,7 @@ bool RigidDem::threads() const {
 void RigidDem::advance(const WallMotion& walls, double dt) {
     const double began = omp_get_wtime();
     wake_pushed(walls);
+    put_to_rest(walls, dt);
     if (box_.periodic) carry_along(walls);
     move(walls, dt);
     wake_touched(dt);
@@ -125,7 +126,6 @@ void RigidDem::advance(const WallMotion& walls, double dt) {
         dissipated_.external_work -= 0.5 * (before + after).sum() * dt;
     }
     if (++steps_measured_ >= steps_between_measures) find_frequency();
-    put_to_rest(walls, dt);
     if (radius_.size() > worth_threads) thread_choice_.note(omp_get_wtime() - began);
 }
 

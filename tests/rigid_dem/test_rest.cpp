@@ -130,6 +130,30 @@ TEST(Rest, ARestartedRunHasTheSameBits) {
         });
 }
 
+/// After steps in which blocks came to rest or woke.
+TEST(Rest, ARestartWhereTheBlocksAtRestChangeHasTheSameBits) {
+    const Packing p = pushed_bed(1e-4);
+    RigidDem straight(scenario_with_tolerance(tolerance), p);
+    advance(straight, p, steps_to_settle);
+    int changes = 0;
+    const auto resting = [&](std::size_t block) { return straight.rest().resting(block); };
+    for (int k = 0; k < 2000 && changes < 12; ++k) {
+        std::array<bool, 25> before{};
+        for (std::size_t b = 0; b < before.size(); ++b) before[b] = resting(b);
+        advance(straight, p, 1);
+        bool changed = false;
+        for (std::size_t b = 0; b < before.size(); ++b) changed = changed || before[b] != resting(b);
+        if (!changed) continue;
+        ++changes;
+        RigidDem restarted(scenario_with_tolerance(tolerance), p);
+        restarted.load(testing::saved(straight));
+        advance(straight, p, 3);
+        advance(restarted, p, 3);
+        EXPECT_TRUE(testing::same_bits(testing::saved(straight), testing::saved(restarted)));
+    }
+    EXPECT_EQ(changes, 12);
+}
+
 TEST(Rest, ThreadsDoNotChangeIt) {
     const Packing p = pushed_bed(1e-4);
     RigidDem settled(scenario_with_tolerance(tolerance), p);
