@@ -8,16 +8,17 @@ namespace softgrain::rigid_dem {
 namespace {
 
 /// Force less the damped share of it, and the work that this takes out of the grain.
-SOFTGRAIN_INLINE double damped(double force, double velocity, double share, double dt, double per_mass,
+SOFTGRAIN_INLINE double damped(double force, double velocity, double share, double kick, double per_mass,
                                double& work) {
     const double taken = share * (force * velocity > 0.0 ? force : force * velocity < 0.0 ? -force : 0.0);
     const double left = force - taken;
-    work += taken * (velocity + 0.5 * dt * left * per_mass) * dt;
+    work += taken * (velocity + 0.5 * kick * left * per_mass) * kick;
     return left;
 }
 
 template <bool rotates, bool nonviscous, bool flows>
-SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
+SOFTGRAIN_INLINE void move(const MotionBlock& block, double kick, double dt, const Flow& flow,
+                           MotionSums& sums) {
     for (int first = 0; first < block.grains; first += lanes) {
         GrainRecord* const grain = block.grain + first;
         const ForceSum* const force = block.force + first;
@@ -33,16 +34,16 @@ SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow
                 flow_vy = flow.origin_vy + flow.yy * dy;
             }
             if constexpr (nonviscous) {
-                fx = damped(fx, g.vx - flow_vx, block.nonviscous_damping, dt, g.inverse_mass, work);
-                fy = damped(fy, g.vy - flow_vy, block.nonviscous_damping, dt, g.inverse_mass, work);
+                fx = damped(fx, g.vx - flow_vx, block.nonviscous_damping, kick, g.inverse_mass, work);
+                fy = damped(fy, g.vy - flow_vy, block.nonviscous_damping, kick, g.inverse_mass, work);
             }
-            const double vx = g.vx + fx * (dt * g.inverse_mass), vy = g.vy + fy * (dt * g.inverse_mass);
+            const double vx = g.vx + fx * (kick * g.inverse_mass), vy = g.vy + fy * (kick * g.inverse_mass);
             if constexpr (rotates) {  // of a disc: I = m R^2 / 2
                 const double per_inertia = 2.0 * g.inverse_mass / (g.radius * g.radius);
                 double torque = g.radius * force[l].shear - force[l].lost_torque;
                 if constexpr (nonviscous)
-                    torque = damped(torque, g.spin, block.nonviscous_damping, dt, per_inertia, work);
-                g.spin += dt * per_inertia * torque;
+                    torque = damped(torque, g.spin, block.nonviscous_damping, kick, per_inertia, work);
+                g.spin += kick * per_inertia * torque;
                 g.rim_speed = g.spin * g.radius;
             }
             g.vx = vx;
@@ -57,25 +58,29 @@ SOFTGRAIN_INLINE void move(const MotionBlock& block, double dt, const Flow& flow
     }
 }
 
-SOFTGRAIN_CLONES void move_only(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<false, false, false>(block, dt, flow, sums);
+SOFTGRAIN_CLONES void move_only(const MotionBlock& block, double kick, double dt, const Flow& flow,
+                                MotionSums& sums) {
+    move<false, false, false>(block, kick, dt, flow, sums);
 }
-SOFTGRAIN_CLONES void move_and_turn(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<true, false, false>(block, dt, flow, sums);
+SOFTGRAIN_CLONES void move_and_turn(const MotionBlock& block, double kick, double dt, const Flow& flow,
+                                    MotionSums& sums) {
+    move<true, false, false>(block, kick, dt, flow, sums);
 }
-SOFTGRAIN_CLONES void move_damped(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<false, true, false>(block, dt, flow, sums);
+SOFTGRAIN_CLONES void move_damped(const MotionBlock& block, double kick, double dt, const Flow& flow,
+                                  MotionSums& sums) {
+    move<false, true, false>(block, kick, dt, flow, sums);
 }
-SOFTGRAIN_CLONES void move_and_turn_damped(const MotionBlock& block, double dt, const Flow& flow,
+SOFTGRAIN_CLONES void move_and_turn_damped(const MotionBlock& block, double kick, double dt, const Flow& flow,
                                            MotionSums& sums) {
-    move<true, true, false>(block, dt, flow, sums);
+    move<true, true, false>(block, kick, dt, flow, sums);
 }
-SOFTGRAIN_CLONES void move_in_flow(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
-    move<false, true, true>(block, dt, flow, sums);
+SOFTGRAIN_CLONES void move_in_flow(const MotionBlock& block, double kick, double dt, const Flow& flow,
+                                   MotionSums& sums) {
+    move<false, true, true>(block, kick, dt, flow, sums);
 }
-SOFTGRAIN_CLONES void move_and_turn_in_flow(const MotionBlock& block, double dt, const Flow& flow,
-                                            MotionSums& sums) {
-    move<true, true, true>(block, dt, flow, sums);
+SOFTGRAIN_CLONES void move_and_turn_in_flow(const MotionBlock& block, double kick, double dt,
+                                            const Flow& flow, MotionSums& sums) {
+    move<true, true, true>(block, kick, dt, flow, sums);
 }
 
 SOFTGRAIN_CLONES double displacement2(const GrainRecord* grain, const double* before, int grains,
@@ -118,14 +123,14 @@ SOFTGRAIN_CLONES void kinetic_tensor(const GrainRecord* grain, const ForceSum* f
 
 }  // namespace
 
-void kick_and_drift(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums) {
+void kick_and_drift(const MotionBlock& block, double kick, double dt, const Flow& flow, MotionSums& sums) {
     const bool nonviscous = block.nonviscous_damping > 0.0;
     if (block.flows)
-        (block.rotates ? move_and_turn_in_flow : move_in_flow)(block, dt, flow, sums);
+        (block.rotates ? move_and_turn_in_flow : move_in_flow)(block, kick, dt, flow, sums);
     else if (block.rotates)
-        (nonviscous ? move_and_turn_damped : move_and_turn)(block, dt, flow, sums);
+        (nonviscous ? move_and_turn_damped : move_and_turn)(block, kick, dt, flow, sums);
     else
-        (nonviscous ? move_damped : move_only)(block, dt, flow, sums);
+        (nonviscous ? move_damped : move_only)(block, kick, dt, flow, sums);
 }
 
 void add_kinetic_tensor(const GrainRecord* grain, const ForceSum* force, int grains, double ahead,

@@ -28,9 +28,10 @@ struct MotionBlock {
     bool flows;  ///< a periodic cell; without it the flow is not looked at
 };
 
-/// Velocities by the forces, then positions by the velocities. Non-viscous damping takes the share lambda_d
+/// Velocities by the forces during `kick`, from the middle of the last step to that of this one, then
+/// positions by the velocities during dt. Non-viscous damping takes the share lambda_d
 /// of each force component that works, and adds it to one that is worked against (DEM course, "Damping").
-void kick_and_drift(const MotionBlock& block, double dt, const Flow& flow, MotionSums& sums);
+void kick_and_drift(const MotionBlock& block, double kick, double dt, const Flow& flow, MotionSums& sums);
 
 /// Adds the kinetic tensor against the flow, of velocities `ahead` of those kept by the present forces.
 void add_kinetic_tensor(const GrainRecord* grain, const ForceSum* force, int grains, double ahead,

@@ -156,12 +156,13 @@ MotionBlock RigidDem::movers(std::size_t b) {
 
 void RigidDem::move(const WallMotion& walls, double dt) {
     const Flow flow = flow_of(walls);
+    const double kick = last_dt_ > 0.0 ? 0.5 * (last_dt_ + dt) : dt;
     std::vector<std::pair<double, double>> totals(mover_blocks());  // squared speed, work
 #pragma omp parallel for schedule(static) if (threads())
     for (std::size_t b = 0; b < totals.size(); ++b) {
         if (rest_.resting(b)) continue;
         MotionSums sums{};
-        kick_and_drift(movers(b), dt, flow, sums);
+        kick_and_drift(movers(b), kick, dt, flow, sums);
         totals[b] = {largest(sums.speed2), sum(sums.work)};
         for (const double one : sums.speed2)
             if (std::isnan(one)) totals[b].first = one;
