@@ -38,9 +38,14 @@ double discs_of_an_aggregate(const Scenario& scenario, const Settings& bpm) {
     constexpr double area_share = 0.9;  // discs of a grain / its area
     if (!bpm.has("disc_diameter"))
         return bpm.has("discs_per_grain") ? static_cast<double>(bpm.integer("discs_per_grain")) : 100.0;
-    const double across = 2.0 * std::max(scenario.packing.radius_mean, scenario.packing.radius_max) /
-                          bpm.number("disc_diameter");
-    return std::max(1.0, area_share * across * across);
+    const PackingSpec& packing = scenario.packing;
+    const BoxSpec& box = scenario.box;
+    const double largest = 2.0 * std::max(packing.radius_mean, packing.radius_max);
+    double across2 = largest * largest;
+    if (!packing.path && !packing.region && box.width && box.height)  // radii are scaled to the box
+        across2 = 4.0 / std::numbers::pi * *box.width * *box.height / packing.count;
+    const double disc = bpm.number("disc_diameter");
+    return std::max(1.0, area_share * across2 / (disc * disc));
 }
 
 /// What the method makes of one grain, in bytes.

@@ -26,6 +26,7 @@ struct Arrival {
 struct Block {
     std::size_t first_grain = 0, grains = 0;  ///< in spatial order
     std::size_t first_record = 0;             ///< its grains', then its copies'
+    bool is_driven = false;                   ///< a grain of it moves as it is told
     std::vector<Halo> halo;
     std::vector<Arrival> arrivals;  ///< in order of the copies
     std::vector<LocalPair> pairs;   ///< of its grains with later ones, sorted

@@ -236,7 +236,10 @@ void RigidDem::fill_block(std::size_t b) {
                                            .y = at.y(),
                                            .radius = radius_[grain],
                                            .inverse_mass = moves_as_told ? 0.0 : 1.0 / mass_[grain]};
-        if (moves_as_told) driven_record_[grain - free_grains()] = block.first_record + g;
+        if (!moves_as_told) continue;
+        const std::size_t d = grain - free_grains();
+        driven_record_[d] = block.first_record + g;
+        block.is_driven = block.is_driven || driven_[d].spin != 0.0 || !driven_[d].velocity.isZero(0.0);
     }
     prepare_pairs(block);
     if (!box_.periodic) list_walls(b);

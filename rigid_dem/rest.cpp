@@ -24,8 +24,9 @@ void RigidDem::start_rest() {
     rest_.start(std::move(neighbors));
 }
 
-/// True if the cell, or a wall that a grain of the block touches or may soon touch, moves.
+/// True if the cell, a driven grain of the block, or a wall that a grain touches or may soon touch, moves.
 bool RigidDem::is_pushed(std::size_t b, const WallMotion& walls) const {
+    if (blocks_[b].is_driven) return true;
     if (box_.periodic)
         return walls.tilt_rate != 0.0 ||
                std::any_of(walls.velocity.begin(), walls.velocity.end(), [](double v) { return v != 0.0; });

@@ -79,6 +79,22 @@ TEST(Rest, WhatIsFarFromTheLoadIsLeftOutWithinTheTolerance) {
                 1e-3 * expected.wall_force[2].norm());
 }
 
+/// So slow that its own block would rest: a hundredth of the tolerance in 64 steps.
+TEST(Rest, DrivenGrainsMoveHoweverSlowly) {
+    Packing p = bed();
+    p.center.emplace_back(2.0 * columns - 20.0, 2.0 + std::sqrt(3.0) * rows);
+    p.radius.push_back(1.0);
+    p.driven.push_back({.velocity = {0.0, -3e-9}});
+    RigidDem dem(scenario_with_tolerance(tolerance), p);
+    advance(dem, p, 2 * steps_to_settle);
+    const auto driven = p.size() - 1;
+    ASSERT_GT(dem.rest().left_out(), 0);
+    std::size_t awake = 0;
+    for (std::size_t b = 0; b < 26; ++b) awake += dem.rest().resting(b) ? 0 : 1;
+    EXPECT_GE(awake, 1U) << "that of the driven grain";
+    EXPECT_NEAR(dem.view(Need::base).velocity[driven].y(), -3e-9, 1e-12);
+}
+
 /// From a wall on the left to the last block.
 TEST(Rest, BlocksWakeWhenWhatTheyTouchMoves) {
     const Packing p = bed();
