@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/packing/overlap_energy.hpp"
 #include "common/packing/random_sequential.hpp"
+#include "common/space_order.hpp"
 #include "common/stop.hpp"
 
 namespace softgrain {
@@ -52,7 +53,11 @@ class Fall {
         add_wall({0.0, 0.0}, {box.width(), 0.0}, {0.0, -1.0});
         add_wall({0.0, 0.0}, {0.0, 2.0 * box.height()}, {-1.0, 0.0});
         add_wall({box.width(), 0.0}, {box.width(), 2.0 * box.height()}, {1.0, 0.0});
-        for (std::size_t k = 0; k < radii.size(); ++k) {
+        discs_.resize(radii.size());
+        // Box2D makes a better tree of neighbours one after the other: 100 000 discs found their pairs in
+        // 0.2 s, in a random order in 3 to 5.
+        for (const int disc : space_order(center, 2.0)) {
+            const auto k = static_cast<std::size_t>(disc);
             b2CircleShape circle;
             circle.m_radius = single(units_ * radii[k]);
             b2BodyDef body;
@@ -60,9 +65,9 @@ class Fall {
             body.fixedRotation = true;
             body.linearDamping = air;
             body.position = point(center[k]);
-            discs_.push_back(world_.CreateBody(&body));
-            discs_.back()->CreateFixture(fixture(circle));
-            mass_ += discs_.back()->GetMass();
+            discs_[k] = world_.CreateBody(&body);
+            discs_[k]->CreateFixture(fixture(circle));
+            mass_ += discs_[k]->GetMass();
         }
     }
 
