@@ -13,7 +13,8 @@ namespace {
 using namespace testing;
 using Clock = std::chrono::steady_clock;
 
-constexpr double long_wait = 10.0;  // [s], ten times what a crowded machine needs
+constexpr double long_wait =
+    10.0;  // [s], ten times what a crowded machine needs; the work itself takes hours
 
 class Stopped : public ReliabilityTest {
   protected:
@@ -45,7 +46,7 @@ TEST_F(Stopped, WithinAStepOfMpm) {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         child = start(command(out, {"--resume"}));
         wait_for_rows(out / "history.csv", 1);
-        sleep(0.1 * first_step);
+        sleep(0.2 * first_step);
         ::kill(child, signal);
         const auto asked = Clock::now();
         const Outcome outcome = wait_for(child);
@@ -56,7 +57,7 @@ TEST_F(Stopped, WithinAStepOfMpm) {
             << outcome.out;
     }
     std::printf("the step takes %.2f s, a signal at most %.3f s\n", first_step, longest);
-    EXPECT_LT(longest, long_wait);  // that no step was completed, the line above says
+    EXPECT_LT(longest, 0.5 * first_step);
     EXPECT_EQ(softgrain(command(out, {"--resume"})).exit_code, 0);
     EXPECT_TRUE(same_results(whole, out));
 }
