@@ -4,14 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/at.hpp"
 #include "common/errors.hpp"
 
 namespace softgrain::bpm {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Tension of a bond [N] along the unit vector to the other disc.
 struct Stretch {

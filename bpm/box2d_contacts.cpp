@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/at.hpp"
 #include "common/errors.hpp"
 #include "common/neighbors.hpp"
 
@@ -18,10 +19,6 @@ namespace {
 constexpr double largest_coordinate = 32768.0;
 constexpr double wall_half_thickness = 2.0;  // [mean disc diameters]
 
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
-
 float single(double value) {
     return static_cast<float>(value);
 }
@@ -30,24 +27,24 @@ int index_of(const b2Body& body) {
     return static_cast<int>(const_cast<b2Body&>(body).GetUserData().pointer);
 }
 
-/// Discs of one grain do not rub.
-class NoFrictionWithin final : public b2ContactListener {
-  public:
-    explicit NoFrictionWithin(std::span<const int> group) : group_(group.begin(), group.end()) {}
-    void BeginContact(b2Contact* contact) override {
-        const std::size_t a = at(index_of(*contact->GetFixtureA()->GetBody()));
-        const std::size_t b = at(index_of(*contact->GetFixtureB()->GetBody()));
-        if (a < group_.size() && b < group_.size() && group_[a] == group_[b]) contact->SetFriction(0.0F);
-    }
-
-  private:
-    std::vector<int> group_;
-};
-
 }  // namespace
 
 /// Bodies are numbered: the discs, then the walls.
 struct Box2dContacts::World {
+    /// Discs of one grain do not rub.
+    class NoFrictionWithin final : public b2ContactListener {
+      public:
+        explicit NoFrictionWithin(std::span<const int> group) : group_(group.begin(), group.end()) {}
+        void BeginContact(b2Contact* contact) override {
+            const std::size_t a = at(index_of(*contact->GetFixtureA()->GetBody()));
+            const std::size_t b = at(index_of(*contact->GetFixtureB()->GetBody()));
+            if (a < group_.size() && b < group_.size() && group_[a] == group_[b]) contact->SetFriction(0.0F);
+        }
+
+      private:
+        std::vector<int> group_;
+    };
+
     explicit World(const Discs& discs) : listener(discs.group) {
         b2.SetAllowSleeping(false);
         b2.SetContinuousPhysics(false);

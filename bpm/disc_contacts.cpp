@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/at.hpp"
+
 namespace softgrain::bpm {
-namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
-
-}  // namespace
-
 DiscContacts list_disc_contacts(const SolvedContacts& solved, const GrainContactInput& in) {
     DiscContacts result;
     result.touching.assign(in.discs.x.size(), 0.0);

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/at.hpp"
+
 namespace softgrain::bpm {
 namespace {
 
 // Height of a stripe / mean reach of a disc: a run of eight then holds most of a disc's neighbours there.
 constexpr double stripe_height = 0.6;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/at.hpp"
+
 namespace softgrain::bpm {
 namespace {
 
@@ -14,10 +16,6 @@ struct Touch {
     Vec2 force;          ///< on i [N]
     double half_extent;  ///< radius of the smaller disc [m]
 };
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 void append_disc_touches(const SolvedContacts& solved, const GrainContactInput& in,
                          std::vector<Touch>& touches) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/at.hpp"
 #include "common/gather.hpp"
 
 namespace softgrain::bpm {
@@ -20,10 +21,6 @@ struct Cover {
     double begin, end;  // angles, begin in [0, 2 pi)
     int by;
 };
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 Vec2 direction(double angle) {
     return {std::cos(angle), std::sin(angle)};

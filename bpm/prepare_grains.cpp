@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "bpm/aggregate_cache.hpp"
+#include "common/at.hpp"
 #include "common/errors.hpp"
 
 namespace softgrain::bpm {
@@ -18,10 +19,6 @@ namespace {
 // Area of the discs / area inside the outline that disc_diameter counts on; 0.84 to 0.88 was measured.
 constexpr double usual_packing_fraction = 0.86;
 constexpr double most_discs = 1e6;  // of one grain
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 std::vector<Aggregate> prepare_all(const std::vector<AggregateSpec>& specs) {
     std::vector<Aggregate> aggregates(specs.size());

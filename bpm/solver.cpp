@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "bpm/prepare_grains.hpp"
+#include "common/at.hpp"
 #include "common/errors.hpp"
 #include "common/gravity.hpp"
 
@@ -29,10 +30,6 @@ constexpr double box2d_units = 0.5;
 constexpr double most_box2d_units = 400.0;
 constexpr double invalid_overlap = 0.05;  // that Box2D leaves [mean disc diameters]
 constexpr double invalid_residual = 5.0;  // [tolerances] of a solve that did not converge
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -1,16 +1,9 @@
 // The energy ledger of the solver.
 #include "bpm/solver.hpp"
+#include "common/at.hpp"
 #include "common/block_sum.hpp"
 
 namespace softgrain::bpm {
-namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
-
-}  // namespace
-
 void BpmSolver::account(const WallMotion& walls, double h) {
     double work = 0.0;
     for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bpm/solver.hpp"
+#include "common/at.hpp"
 #include "common/errors.hpp"
 #include "common/stop.hpp"
 
@@ -22,10 +23,6 @@ constexpr double resting_speed = 2e-3;   // root mean square, in sqrt(F0 d / m)
 constexpr double resting_damping = 0.5;  // rate, in sqrt(F0 / (m d))
 constexpr double misfit_overlap = 0.02;  // a packing that keeps more overlap is too dense
 constexpr double misfit_dilation = 4.0;  // factor of distances, beyond that of any rough outline
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 Vec2 centre_of(const Box& box) {
     return {0.5 * (box.position[0] + box.position[1]), 0.5 * (box.position[2] + box.position[3])};

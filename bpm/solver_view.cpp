@@ -4,15 +4,12 @@
 
 #include "bpm/outline.hpp"
 #include "bpm/solver.hpp"
+#include "common/at.hpp"
 
 namespace softgrain::bpm {
 namespace {
 
 constexpr double touch_gap = 0.02;  // two grains touch below this gap [mean disc diameters]
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// x and y of each vector.
 std::span<const double> components_of(const std::vector<Vec2>& vectors) {

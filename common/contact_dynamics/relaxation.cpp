@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/at.hpp"
 #include "common/stop.hpp"
 
 namespace softgrain {
@@ -11,10 +12,6 @@ namespace {
 
 constexpr double quiet = 0.5;            // a block rests when a sweep changes it by less, in tolerances
 constexpr int rows_worth_a_wait = 2000;  // fewer are relaxed by one thread while the others wait
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// A barrier, free of charge for a single thread.
 void wait() {

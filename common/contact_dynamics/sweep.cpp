@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/at.hpp"
 #include "common/contact_dynamics/row_batches.hpp"
 #include "common/simd.hpp"
 
 namespace softgrain::contact_sweep {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// The row's half of a pair's inertia against rolling: I_e / m_e [m^2], and what an angular impulse does to
 /// the two rim speeds. Discs: I = m r^2 / 2.

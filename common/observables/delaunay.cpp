@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/at.hpp"
 #include "common/space_order.hpp"
 
 namespace softgrain {
@@ -15,10 +16,6 @@ constexpr int infinite = -1;  // the point beyond the hull
 
 int after(int k) {
     return (k + 1) % 3;
-}
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
 }
 
 class Triangulator {

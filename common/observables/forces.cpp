@@ -5,14 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/at.hpp"
 #include "common/observables/stress.hpp"
 
 namespace softgrain {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Larger principal stress and its direction.
 struct Major {

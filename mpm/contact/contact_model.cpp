@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
+#include "common/at.hpp"
 #include "mpm/disc/quadratic_spline.hpp"
 
 namespace softgrain::mpm {
-namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
-
-}  // namespace
-
 void ContactModel::build(const Contacts& contacts, std::span<const Slider> sliders) {
     const ReferenceDisc& disc = *grains_.disc;
     const int nodes = static_cast<int>(grains_.nodes()), controls = static_cast<int>(disc.control.size());

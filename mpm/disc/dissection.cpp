@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
 
 /// Regions below this size are not divided: dense elimination of them is as fast.
 constexpr std::size_t small_region = 24;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 }  // namespace
 

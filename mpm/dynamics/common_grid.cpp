@@ -7,15 +7,13 @@
 #include <tuple>
 #include <utility>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
 
 /// Mass at a node that counts [density * cell].
 constexpr double least_mass = 1e-6;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// The four nodes around a point, with S and its gradient times the spacing.
 struct Corners {

@@ -7,16 +7,14 @@
 #include <limits>
 #include <numbers>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
 
 /// Change of the eigenvalue in an iteration that ends it.
 constexpr double settled = 1e-3;
 constexpr int most_iterations = 60;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Something of every mode: a fixed sequence without pattern.
 Vec2 seed(std::size_t node) {

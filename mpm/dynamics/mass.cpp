@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 std::vector<double> mass_in_pattern(const ReferenceDisc& disc, const StiffnessPattern& pattern) {
     std::vector<double> value(pattern.size(), 0.0);

@@ -4,12 +4,10 @@
 #include <map>
 #include <set>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Nodes of the same elements, as one variable.
 struct Variable {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/at.hpp"
 #include "mpm/linear/dense_cholesky.hpp"
 
 namespace softgrain::mpm {
@@ -9,10 +10,6 @@ namespace {
 
 /// Columns that a thread takes at once of what is left of a large front.
 constexpr Eigen::Index shared_columns = 128;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// The lower triangle of the first columns of a matrix.
 void clear_lower(double* a, std::size_t stride, std::size_t columns) {

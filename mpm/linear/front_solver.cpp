@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
 
@@ -9,10 +11,6 @@ namespace {
 constexpr double worth_a_task = 1e6, worth_sharing = 2e7;
 /// Operations of a factorization that are as fast as one of a correction of low rank.
 constexpr double slower_correction = 2.0;
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 }  // namespace
 

@@ -3,12 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "common/at.hpp"
+
 namespace softgrain::mpm {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 Eigen::Index index(std::size_t k) {
     return static_cast<Eigen::Index>(k);

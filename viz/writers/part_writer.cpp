@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/at.hpp"
 #include "common/errors.hpp"
 #include "viz/writers/places.hpp"
 #include "viz/writers/vtp_file.hpp"
@@ -20,10 +21,6 @@
 
 namespace softgrain {
 namespace {
-
-std::size_t at(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 void require_finite(bool finite, const PartView& parts, std::size_t part, std::string_view quantity,
                     double time) {
