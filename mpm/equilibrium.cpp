@@ -18,7 +18,7 @@ constexpr double least_hold = 1e-9, most_hold = 1e4;
 constexpr double hold_down = 0.1;
 /// Share of the decrease foreseen that a step must bring.
 constexpr double sufficient = 1e-4;
-constexpr int most_halvings = 6;
+constexpr int most_halvings_of_search = 6;
 /// Most looks at which points a step makes touch.
 constexpr int most_looks = 12;
 /// Friction that changes by less has been foreseen [largest force of a node].
@@ -276,7 +276,7 @@ EquilibriumResult Equilibrium::find(std::vector<Vec2>& q, const Box& box) {
         };
         double share = whole;
         bool found = false;
-        for (int halving = 0; halving <= most_halvings && !found; ++halving) {
+        for (int halving = 0; halving <= most_halvings_of_search && !found; ++halving) {
             if (halving > 0) share *= 0.5;
             try_step(q, share, box, trial_);
             found = better(share);

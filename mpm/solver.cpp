@@ -14,7 +14,7 @@ namespace softgrain::mpm {
 namespace {
 
 /// A step without equilibrium is halved so often.
-constexpr int most_halvings = 10;
+constexpr int most_halvings_of_motion = 10;
 /// Share of the undeformed area of all grains that walls may not go below: nothing is solid there.
 constexpr double least_area = 0.2;
 
@@ -163,7 +163,7 @@ void MpmSolver::advance_implicitly(const WallMotion& walls, double dt) {
             continue;
         }
         part *= 0.5;
-        if (++halvings > most_halvings)
+        if (++halvings > most_halvings_of_motion)
             throw DivergedError(result.worst_node / static_cast<int>(grains_.nodes()), "equilibrium",
                                 time_ + done * dt,
                                 result.why + "; the walls cannot go on even by a thousandth of a step");

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array markers{MarkerStyle::circle, MarkerStyle::square, MarkerStyle::diamond,
                              MarkerStyle::plus};
-constexpr double least_error = 1e-4;  ///< that is drawn as it is
-constexpr double most_error = 3.0;
+constexpr double least_drawn = 1e-4;  ///< that is drawn as it is
+constexpr double most_drawn = 3.0;
 
 struct Bounds {
     double low, high;
@@ -31,7 +31,7 @@ struct Bounds {
 };
 
 double drawn(double error) {
-    return std::clamp(error, least_error, most_error);
+    return std::clamp(error, least_drawn, most_drawn);
 }
 
 /// Rows of one knob with this error, in the order of the plan.

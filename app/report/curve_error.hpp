@@ -8,6 +8,8 @@
 
 namespace softgrain::report {
 
+inline constexpr double same_packing = 0.005;  ///< difference of packing fraction that is none
+
 /// What the others are measured against.
 struct Truth {
     std::string name;

@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr double contacts_per_bin =
     30.0;                           ///< with bins of a tenth of the mean that many near the mean, or wider
 constexpr double fine_bins = 10.0;  ///< in one mean force
-constexpr double same_packing = 0.005;  ///< difference of packing fraction that is none
 
 /// Packing fraction at the time that stands in the file's first line; nan if none does.
 double packing_fraction_of(const fs::path& path, const History& history) {

@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_packing = 0.005;  ///< difference of packing fraction that is none
-constexpr double least_range = 0.02;    ///< of packing fraction; below it stages are shares of the loading
+constexpr double least_range = 0.02;  ///< of packing fraction; below it stages are shares of the loading
 
 /// Tried one after the other until the pictures are small enough.
 struct Effort {

@@ -25,14 +25,14 @@ void insert_point(vtkPoints& points, vtkCellArray& lines, const Vec2& p) {
 }
 
 /// A line to draw and the contact it belongs to.
-struct Line {
+struct Polyline {
     std::size_t contact;
     std::vector<Vec2> points;
 };
 
-std::vector<Line> lines_of(const GrainView& view) {
+std::vector<Polyline> polylines_of(const GrainView& view) {
     const std::vector<Vec2> shift = shift_into_cell(view);
-    std::vector<Line> lines;
+    std::vector<Polyline> lines;
     for (std::size_t k = 0; k < view.contacts.size(); ++k) {
         const GrainContact& c = view.contacts[k];
         const auto i = static_cast<std::size_t>(c.i);
@@ -61,11 +61,11 @@ std::vector<Line> lines_of(const GrainView& view) {
     return lines;
 }
 
-void add_lines(const std::vector<Line>& lines, vtkPolyData& data) {
+void add_lines(const std::vector<Polyline>& lines, vtkPolyData& data) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> cells;
-    for (const Line& line : lines) {
+    for (const Polyline& line : lines) {
         cells->InsertNextCell(static_cast<int>(line.points.size()));
         for (const Vec2& p : line.points) insert_point(*points, *cells, p);
     }
@@ -73,7 +73,7 @@ void add_lines(const std::vector<Line>& lines, vtkPolyData& data) {
     data.SetLines(cells);
 }
 
-void add_contact_data(const GrainView& view, const std::vector<Line>& lines, vtkPolyData& data) {
+void add_contact_data(const GrainView& view, const std::vector<Polyline>& lines, vtkPolyData& data) {
     const std::size_t n = lines.size();
     vtkCellData& cells = *data.GetCellData();
     auto normal_force = add_numbers(cells, "normal_force", "N", 1, n);
@@ -120,7 +120,7 @@ std::vector<std::string> ContactWriter::resume(std::span<const double> frame_tim
 void ContactWriter::observe(const GrainView& view, const Sample& sample) {
     if (!sample.is_frame) return;
     vtkNew<vtkPolyData> data;
-    const std::vector<Line> lines = lines_of(view);
+    const std::vector<Polyline> lines = polylines_of(view);
     add_lines(lines, *data);
     add_contact_data(view, lines, *data);
     frames_.add(sample.frame, view.time, *data);
