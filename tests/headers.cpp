@@ -1,0 +1,1 @@
+// Only so that the headers listed in CMakeLists.txt are compiled once for all tests.
