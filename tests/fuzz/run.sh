@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Builds the fuzzers with clang and runs them, one after the other.
+# Builds the fuzzers with clang and runs them, one for each processor at a time.
 #   tests/fuzz/run.sh [SECONDS [READER...]]    each so long (60), readers: scenario packing history run_file
 #   tests/fuzz/run.sh keep                     put what they have learned into tests/fuzz/corpus, from which they begin
-# A finding ends the script and is left in build/fuzz/findings. With FUZZ_SEED a run tries the same inputs as the last one.
+# A finding makes the script fail and is left in build/fuzz/findings. With FUZZ_SEED a run tries the same inputs as the last one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 what=${1:-60}
@@ -25,14 +25,18 @@ git ls-files 'scenarios/*.csv' | xargs grep -l '^x,y,r' | while read -r file; do
 done
 git ls-files 'tests/golden/*.csv' | while read -r file; do head -c $longest "$file" >"$seeds/history/$(basename "$file")"; done
 
-for reader in "${readers[@]}"; do
-    fuzz=$made/bin/fuzz_$reader kept=tests/fuzz/corpus/$reader found=$made/found/$reader
+search() {
+    local reader=$1 fuzz=$made/bin/fuzz_$1 kept=tests/fuzz/corpus/$1 found=$made/found/$1
     mkdir -p "$kept" "$found"
-    echo "#### $reader"
     if [ "$what" = keep ]; then
         "$fuzz" -merge=1 -max_len=300 "$kept" "$found"
     else
         "$fuzz" -seed="${FUZZ_SEED:-0}" -max_total_time="$what" -timeout=10 -rss_limit_mb=2048 -max_len=$longest -print_final_stats=1 -verbosity=0 \
             -print_funcs=0 -artifact_prefix="$made/findings/${reader}_" "$found" "$kept" "$seeds/$reader"
     fi
-done
+}
+
+# One for each processor at a time; each tells what it found when it ends.
+export -f search
+export what made longest seeds
+printf '%s\n' "${readers[@]}" | xargs -P "$(nproc)" -I{} bash -c 'log=$(search {} 2>&1) && rc=0 || rc=$?; printf "#### {}\n%s\n" "$log"; exit $rc'
