@@ -13,6 +13,9 @@ endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   # Of a loop that stays scalar, and of `a & b ? c : d`.
   target_compile_options(softgrain_options INTERFACE -Wno-pass-failed -Wno-bitwise-conditional-parentheses)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(softgrain_options INTERFACE -Wno-shadow) # of a name in another file
+  endif()
 endif()
 if(SOFTGRAIN_NATIVE)
   target_compile_options(softgrain_options INTERFACE -march=native)
