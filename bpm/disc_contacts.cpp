@@ -6,6 +6,7 @@
 #include "common/at.hpp"
 
 namespace softgrain::bpm {
+
 DiscContacts list_disc_contacts(const SolvedContacts& solved, const GrainContactInput& in) {
     DiscContacts result;
     result.touching.assign(in.discs.x.size(), 0.0);

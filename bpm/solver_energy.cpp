@@ -4,6 +4,7 @@
 #include "common/block_sum.hpp"
 
 namespace softgrain::bpm {
+
 void BpmSolver::account(const WallMotion& walls, double h) {
     double work = 0.0;
     for (int w = 0; w < 4; ++w) work -= h * wall_force_[at(w)].dot(walls.velocity_of(w));

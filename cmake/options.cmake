@@ -46,7 +46,7 @@ if(SOFTGRAIN_HARDENING AND CMAKE_BUILD_TYPE STREQUAL "Release")
 endif()
 target_include_directories(softgrain_options INTERFACE ${PROJECT_SOURCE_DIR})
 
-# softgrain_compile_together(targets...): several source files of them at a time, which takes a third of the time. For what is not
+# softgrain_compile_together(targets...): several source files of them at a time, which takes about half of the time. For what is not
 # hot; debug builds, which editors ask, keep files apart.
 function(softgrain_compile_together)
   if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")

@@ -6,6 +6,7 @@
 #include "mpm/disc/quadratic_spline.hpp"
 
 namespace softgrain::mpm {
+
 void ContactModel::build(const Contacts& contacts, std::span<const Slider> sliders) {
     const ReferenceDisc& disc = *grains_.disc;
     const int nodes = static_cast<int>(grains_.nodes()), controls = static_cast<int>(disc.control.size());
